@@ -26,7 +26,7 @@ from synth.atlas.signatures import MotionCurve, angles_between, difference
 from synth.designing.designs import DesignSearch
 from synth.designing.problem import DesignStep
 from synth.designing.wishes import LinkOrientation, WishedConfiguration, Wishes
-from synth.members.circuits import Circuits, across, circuits_of, relative, spherical_of
+from synth.members.circuits import MemberCircuits, across, circuits_of, relative, spherical_of
 
 EXACT, ALONG, POSES = 1e-9, 1e-4, 16
 """Radians by which poses may be missed, and by which circuits may differ between them, where the motion is known by a
@@ -83,7 +83,7 @@ class Course(NamedTuple):
     The poses are those from the first one, turned by `turn`; `off` is the root mean square of misses, radians.
     """
 
-    traced: Circuits
+    traced: MemberCircuits
     links: tuple[Any, Any]
     places: Floats
     turn: Rotation
@@ -105,7 +105,7 @@ class Course(NamedTuple):
         ]
         return min(every, key=lambda one: one.off).fitted(poses, most=30, axes=False)
 
-    def configurations(self) -> Circuits:
+    def configurations(self) -> MemberCircuits:
         """Return the configurations at the places, between frames by a quintic spline."""
         angles = self.traced.angles[0]
         count = len(angles)
@@ -171,7 +171,7 @@ class Course(NamedTuple):
         return HingedSolids(linkage, seen), there.angles[0, 1:] - there.angles[0, 0]
 
 
-def _of_frames(traced: Circuits, links: tuple[Any, Any], poses: Poses) -> Course:
+def _of_frames(traced: MemberCircuits, links: tuple[Any, Any], poses: Poses) -> Course:
     """Return the frame with which poses begin, and the way, that miss them least."""
     turned = {link: rows[0] for link, rows in traced.rotations().items()}
     motion = relative(turned[links[0]], turned[links[1]])

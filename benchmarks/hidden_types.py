@@ -40,7 +40,7 @@ from graphs.types import Floats
 from synth.atlas import AtlasPlan, add_motions, build_atlas, like, open_atlas
 from synth.atlas.opened import Atlas
 from synth.atlas.signatures import MotionCurve
-from synth.members.circuits import Circuits, circuits_of, product, relative
+from synth.members.circuits import MemberCircuits, circuits_of, product, relative
 from synth.motion.closure import ClosureEquations, corrected
 from synth.motion.linkage import linkage_of_axes
 
@@ -59,7 +59,7 @@ class Hidden(NamedTuple):
     motion: Floats
 
 
-def drawn(number: int, frames: int) -> tuple[str, Circuits, np.random.Generator]:
+def drawn(number: int, frames: int) -> tuple[str, MemberCircuits, np.random.Generator]:
     """Return the chain and the circuit of a member that closes, drawn by its number, and the generator it leaves."""
     random = np.random.default_rng([2026, number])
     code = CHAINS[number % len(CHAINS)]
@@ -85,7 +85,7 @@ def hidden(number: int, noise: float, frames: int) -> Hidden:
     return Hidden(code, (first, second), noisy)
 
 
-def _to_the_last_digit(traced: Circuits) -> Circuits:
+def _to_the_last_digit(traced: MemberCircuits) -> MemberCircuits:
     """Return the circuit of a member with loops closed at each frame; between its steps it comes by a spline."""
     axes = dict(zip(traced.chain.joints, traced.axes[0].tolist(), strict=True))
     linkage = linkage_of_axes(traced.chain, {joint: (axis, axis) for joint, axis in axes.items()})

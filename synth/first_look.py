@@ -193,7 +193,7 @@ def _motion(answer: JudgedMobility) -> str:
 def _drawing(answer: JudgedMobility) -> str:
     """Return the sentences on repairs, assignments that disagree, and what was left out."""
     reading = answer.reading
-    sentences = [str(line).rstrip(".") for line in answer.unread()]
+    sentences = [str(line).rstrip(".") for line in answer.report.unread()]
     for note in answer.repairs:
         if reading is None or note != reading.left_out:
             sentences.append(f"repaired: {note if reading is None else reading.with_places(note)}")

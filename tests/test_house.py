@@ -144,6 +144,20 @@ def test_no_name_of_a_face_is_a_file_or_room(face):
     assert not set(names) & inside
 
 
+DOUBLE_CLASSES: dict[str, str] = {}
+"""Names of public classes that are in several files, each with the reason why it stays so."""
+
+
+def test_no_two_public_classes_have_one_name():
+    places: dict[str, list[str]] = {}
+    for path in SOURCES:
+        for node in ast.parse(path.read_text(encoding="utf-8")).body:
+            if isinstance(node, ast.ClassDef) and not node.name.startswith("_"):
+                places.setdefault(node.name, []).append(dotted(path))
+    assert {name: where for name, where in places.items() if len(where) > 1 and name not in DOUBLE_CLASSES} == {}
+    assert {name for name in DOUBLE_CLASSES if len(places.get(name, ())) < 2} == set()
+
+
 def test_a_face_has_no_other_names():
     import graphs.loops
 

@@ -53,7 +53,7 @@ def folding() -> Scene:
     branches = configuration_of_sheet(sheet).branches
     assert branches is not None
     columns = [_branch(sheet, number, branch.freedoms) for number, branch in enumerate(branches.branches)]
-    words = "creases as each way begins: mountains red, valleys blue and dashed, creases that lie still dotted"
+    words = "creases as each way begins: mountains red, valleys blue and dashed, immobile creases dotted"
     return said(beside(*columns, gap=4.0), words)
 
 
@@ -78,7 +78,7 @@ def _branch(sheet: Sheet, number: int, freedoms: int | None) -> Scene:
 
 
 def _lettered(sheet: Sheet, followed: Motion, frame: int) -> Sheet:
-    """Return a sheet with the letters that its creases have in a frame; those that lie still are unassigned."""
+    """Return a sheet with the letters that its creases have in a frame; immobile ones are unassigned."""
     angles = dict(zip(followed.joints, followed.path.angles[frame].tolist(), strict=True))
     letters = {joint: "U" if abs(angle) < _STILL else "V" if angle > 0 else "M" for joint, angle in angles.items()}
     assigned = (letters.get(edge, letter) for edge, letter in enumerate(sheet.assignments))

@@ -80,8 +80,8 @@ def generators() -> Scene:
 
 def advice() -> Scene:
     """A pattern with too many freedoms and creases to lock, one with too few and a diagonal to crease."""
-    loose, stiff = synth.generate("waterbomb-base").mechanism, synth.generate("miura", rows=2, columns=2).mechanism
-    locking, creasing = synth.advise(loose, 1), synth.advise(stiff, 2)
+    loose, rigid = synth.generate("waterbomb-base").mechanism, synth.generate("miura", rows=2, columns=2).mechanism
+    locking, creasing = synth.advise(loose, 1), synth.advise(rigid, 2)
     pieces = mechanism_of_sheet(loose).pieces
     locked = [edge for joint in locking.locks[0].joints for edge in pieces[joint]]
     diagonals = [one.ends for one in creasing.creases[0].diagonals]
@@ -92,7 +92,7 @@ def advice() -> Scene:
             f"lock {numbered(len(locked), 'crease')} (barred)",
         ),
         said(
-            _marked(stiff, (), diagonals),
+            _marked(rigid, (), diagonals),
             f"{numbered(creasing.freedoms, 'freedom')}, {creasing.wanted} wanted:",
             f"add {numbered(len(diagonals), 'crease')} (double line)",
         ),

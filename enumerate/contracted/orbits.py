@@ -16,7 +16,7 @@ from enumerate.contracted.states import (
     GROUPS,
     LEVEL,
     Classes,
-    StateTable,
+    PlacementStates,
     add,
     beginning,
     classes_in_order,
@@ -100,8 +100,8 @@ def _ends_of_orbits(classes: Classes, images: Ints) -> Ints:
 
 @compiled
 def _compared(
-    states: StateTable, i: int, classes: Classes, images: Ints, groups: Words, end: int, most: int
-) -> tuple[StateTable, Words]:
+    states: PlacementStates, i: int, classes: Classes, images: Ints, groups: Words, end: int, most: int
+) -> tuple[PlacementStates, Words]:
     """Fill an orbit that symmetries may leave as it is, or make larger, which is not kept.
 
     The table is `states`, i the state before; images are those of `_images`; `groups`, uint64[g, w], says which

@@ -205,7 +205,7 @@ GROUPS = np.uint64(0xFFFF << 32)
 _UNITS = np.uint64(0xFFFFFFFF)
 
 
-class StateTable(NamedTuple):
+class PlacementStates(NamedTuple):
     """A table of states, and for each number of filled classes the list of its states.
 
     `slots`, int64[s], is a hash table of rows. `words`, uint64[r, k + 1], are filled classes and units left of a
@@ -222,7 +222,7 @@ class StateTable(NamedTuple):
 
 
 @compiled
-def beginning(classes: Classes, units: int, group: int) -> StateTable:
+def beginning(classes: Classes, units: int, group: int) -> PlacementStates:
     """Return a table with one state: nothing is filled, for one placement.
 
     `units` binary links are to be placed; the group distinguishes the state.
@@ -236,7 +236,7 @@ def beginning(classes: Classes, units: int, group: int) -> StateTable:
     for k in range(len(classes.needs)):
         row[k + 1] = classes.needs[k]
     _put(slots, words, number, following, begin, row, 1, 0)
-    return StateTable(slots, words, number, following, begin)
+    return PlacementStates(slots, words, number, following, begin)
 
 
 def _slot_of(slots: Ints, words: Words, row: Words) -> np.int64:
@@ -271,7 +271,7 @@ def _slot(slots: Ints, words: Words, row: Words) -> np.int64:
 
 
 @compiled
-def add(states: StateTable, row: Words, number: int, chosen: int) -> StateTable:
+def add(states: PlacementStates, row: Words, number: int, chosen: int) -> PlacementStates:
     """Add placements to a state, and links chosen in them; return the table, which may have grown."""
     if states.begin[-1] == len(states.words):
         states = _grown(states)
@@ -300,14 +300,14 @@ def _put(
 
 
 @compiled
-def _grown(states: StateTable) -> StateTable:
+def _grown(states: PlacementStates) -> PlacementStates:
     """Return a table of twice the size."""
     words, number = doubled(states.words), doubled(states.number)
     following, slots = np.zeros(len(words), np.int64), np.full(4 * len(words), -1, np.int64)
     for i in range(states.begin[-1]):
         following[i] = states.following[i]
         slots[_slot(slots, words, words[i])] = i
-    return StateTable(slots, words, number, following, states.begin)
+    return PlacementStates(slots, words, number, following, states.begin)
 
 
 def _step(
@@ -373,8 +373,8 @@ def step(
 
 @compiled
 def filled(
-    states: StateTable, classes: Classes, level: int, strings: tuple[Ints, Ints], most: int, passed: np.uint64
-) -> StateTable:
+    states: PlacementStates, classes: Classes, level: int, strings: tuple[Ints, Ints], most: int, passed: np.uint64
+) -> PlacementStates:
     """Fill the next class of all states with so many filled classes, in every way; return the table.
 
     `level` is the number of filled classes, `strings` those of `enumerate.contracted.states.strings_of_classes`;
@@ -389,18 +389,18 @@ def filled(
     while i >= 0:
         if words[i, 0] & passed == 0:
             while begin[-1] + high - low > len(words):
-                slots, words, number, following, begin = _grown(StateTable(slots, words, number, following, begin))
+                slots, words, number, following, begin = _grown(PlacementStates(slots, words, number, following, begin))
             for way in range(low, high):
                 if step(counters, rest, laid, words, i, ways[way, 0], ways[way, 1], most, new):
                     more = number[i, 0] * ways[way, 2]
                     chosen = number[i, 1] * ways[way, 2] + number[i, 0] * ways[way, 3]
                     _put(slots, words, number, following, begin, new, more, chosen)
         i = following[i]
-    return StateTable(slots, words, number, following, begin)
+    return PlacementStates(slots, words, number, following, begin)
 
 
 @compiled
-def total_at_end(states: StateTable) -> tuple[int, int]:
+def total_at_end(states: PlacementStates) -> tuple[int, int]:
     """Return the number of placements with all classes filled, and of links chosen in all of them."""
     total, chosen, i = 0, 0, states.begin[-2]
     while i >= 0:

@@ -13,8 +13,9 @@ from itertools import pairwise
 import numpy as np
 
 from graphs.answer.report import MobilityAnswer, notes_of_pose
+from graphs.count.applicability import EquationResult
 from graphs.count.equations import loop_form, modified_cgk, traditional_cgk
-from graphs.count.report import EquationResult, MobilityReport, mobility_report
+from graphs.count.report import MobilityReport, mobility_report
 from graphs.errors import numbered, shown
 from graphs.geometry import frame_about, unit
 from graphs.joints.as_points import points_of, rods_between_balls

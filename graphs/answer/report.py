@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, fields
 from typing import Any
 
+from graphs.count.applicability import equation_titles
 from graphs.count.equations import overconstraint
 from graphs.count.report import MobilityReport
 from graphs.errors import numbered
@@ -14,21 +15,6 @@ from graphs.printing import Block, Printed, TableBlock, html_of, plain
 from graphs.rank.exact import ExactMobility
 from graphs.rank.pose import PoseMobility
 from graphs.tolerances import DOUBLE
-
-_TITLES = {
-    "traditional_cgk": "C-G-K (Wiener Eq. 1)",
-    "modified_cgk": "modified C-G-K (Wiener Eq. 2)",
-    "spherical_system": "spherical system (Wiener Eq. 3)",
-    "polyhedron": "polyhedron (Wiener Eq. 4)",
-    "loop_form": "loop form",
-    "closed_surface": "closed surface",
-    "wampler_eq5": "Wampler Eq. 5, rods",
-    "wampler_eq6": "Wampler Eq. 6, points",
-    "wampler_eq7": "Wampler Eq. 7, S+3",
-    "wampler_eq8": "Wampler Eq. 8, S+k",
-    "wampler_eq9": "Wampler Eq. 9, scissors",
-    "wampler_eq10": "Wampler Eq. 10, no ground",
-}
 
 _COUNTS = {
     "vertices": "vertices V",
@@ -93,11 +79,6 @@ class MobilityAnswer(MobilityReport, Printed):
             return None
         return overconstraint(self.pose.dof, self.mobility)
 
-    @property
-    def stated_overconstraint(self) -> int | None:
-        """The h that is printed with the degrees of freedom at the configuration; None if another is stated."""
-        return self.overconstraint
-
     def to_json(self) -> dict[str, Any]:
         """Return the answer as plain data, with the keys that scripts rely on (docs/command-json.md)."""
         counted = super(MobilityAnswer, self).to_json()
@@ -118,9 +99,9 @@ class MobilityAnswer(MobilityReport, Printed):
         """Return the line that says what was left out of a drawing, if anything was."""
         return [self.reading.warning] if self.reading is not None and self.reading.warning else []
 
-    def evidence(self, *, verbose: bool = False) -> list[Block]:
-        """Return ranks and counts as lines, strongest first; verbose adds the table of all equations."""
-        blocks: list[Block] = [] if self.pose is None else [_pose_line(self)]
+    def evidence(self, *, verbose: bool = False, with_h: bool = True) -> list[Block]:
+        """Return ranks and counts as lines, strongest first, with h; verbose adds the table of all equations."""
+        blocks: list[Block] = [] if self.pose is None else [_pose_line(self, with_h=with_h)]
         if self.exact is not None:
             rank = f"exact rank {self.exact.rank} modulo two primes"
             blocks.append(f"generic realisation: mobility {self.exact.mobility}   ({rank})")
@@ -129,8 +110,9 @@ class MobilityAnswer(MobilityReport, Printed):
         blocks.append(f"by count: mobility M = {plain(self.mobility)}   ({kind})")
         blocks.append(_equations_line(self, hint=not verbose))
         if verbose:
+            titles = equation_titles()
             rows = [
-                (_TITLES[name], plain(equation.value), "yes" if equation.applies else "no", equation.why)
+                (titles[name], plain(equation.value), "yes" if equation.applies else "no", equation.why)
                 for name, equation in self.equations.items()
             ]
             blocks.append(TableBlock(("equation", "M", "applies", "why"), rows, ["M"]))
@@ -156,7 +138,7 @@ class MobilityAnswer(MobilityReport, Printed):
         return f"<MobilityAnswer: M = {self.mobility}, {self.mechanism_class}>"
 
 
-def _pose_line(answer: MobilityAnswer) -> str:
+def _pose_line(answer: MobilityAnswer, *, with_h: bool) -> str:
     """Return the line on the infinitesimal degrees of freedom at the configuration."""
     pose = answer.pose
     assert pose is not None
@@ -165,18 +147,18 @@ def _pose_line(answer: MobilityAnswer) -> str:
     gap = pose.to_json()["gap"]
     evidence = "no zero singular value" if gap is None else f"singular-value gap {power_of_ten(gap)}"
     state = "flat state: fewer once folded; " if _is_only_flat(answer) else ""
-    over = "" if answer.stated_overconstraint is None else f"h = {answer.stated_overconstraint}, "
+    over = f"h = {answer.overconstraint}, " if with_h and answer.overconstraint is not None else ""
     freedoms = numbered(pose.dof, "infinitesimal degree of freedom", "infinitesimal degrees of freedom")
     return f"at this configuration: {freedoms}   ({state}{over}{evidence})"
 
 
 def _equations_line(answer: MobilityAnswer, *, hint: bool) -> str:
     """Return the line that names the equations of mobility which apply; with its value where that is not M."""
-    names = []
+    names, titles = [], equation_titles()
     for name, equation in answer.equations.items():
         if equation.applies and equation.value is not None:
             value = "" if equation.value == answer.mobility else f": {equation.value}"
-            names.append(f"{_TITLES[name]}{value}")
+            names.append(f"{titles[name]}{value}")
     every = f"   (--verbose: all {len(answer.equations)} equations)" if hint else ""
     return f"equations that apply: {'; '.join(names) or 'none'}{every}"
 

@@ -1,3 +1,9 @@
+from graphs.count.applicability import (
+    EQUATIONS as EQUATIONS,
+    Equation as Equation,
+    EquationResult as EquationResult,
+    mechanism_class as mechanism_class,
+)
 from graphs.count.equations import (
     closed_surface as closed_surface,
     loop_form as loop_form,
@@ -16,9 +22,4 @@ from graphs.count.equations import (
     wampler_rods as wampler_rods,
     wampler_scissors as wampler_scissors,
 )
-from graphs.count.report import (
-    EquationResult as EquationResult,
-    MobilityReport as MobilityReport,
-    mechanism_class as mechanism_class,
-    mobility_report as mobility_report,
-)
+from graphs.count.report import MobilityReport as MobilityReport, mobility_report as mobility_report

@@ -96,7 +96,7 @@ class BuiltWhole(nx.Graph):
 
     def __new__(cls, *args: object, **options: object) -> Self:
         """Return an instance, or a plain graph where networkx asks for an empty one to fill."""
-        return object.__new__(cls) if args or options else _plain(cls)()  # type: ignore[no-any-return]
+        return object.__new__(cls) if args or options else _plain(cls)()
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Pickle and copy an instance as it is; without this, both would ask for an empty one."""
@@ -112,7 +112,8 @@ class BuiltWhole(nx.Graph):
 
 def _plain(cls: type[nx.Graph]) -> type[nx.Graph]:
     """Return the class of networkx that a class of mechanisms is made of."""
-    return nx.MultiGraph if issubclass(cls, nx.MultiGraph) else nx.Graph
+    plain: type[nx.Graph] = nx.MultiGraph if issubclass(cls, nx.MultiGraph) else nx.Graph
+    return plain
 
 
 @dataclass(slots=True)
@@ -244,7 +245,9 @@ def has_ids(graph: nx.Graph) -> bool:
     """Return whether some edge has the id of a joint, or the keys of all edges tell them apart."""
     if any("joint" in data for *_, data in graph.edges(data=True)):
         return True
-    return graph.is_multigraph() and len({str(key) for *_, key in graph.edges(keys=True)}) == graph.number_of_edges()
+    if not graph.is_multigraph():
+        return False
+    return len({str(key) for *_, key in graph.edges(keys=True)}) == len(graph.edges)
 
 
 _Row = TypeVar("_Row", bound=tuple[Any, ...])

@@ -15,8 +15,8 @@ from typing import Any
 import networkx as nx
 
 from graphs.convert.link_joint import sc_from_link_joint_graph
+from graphs.count.applicability import mechanism_class
 from graphs.count.equations import loop_form
-from graphs.count.report import mechanism_class
 from graphs.errors import InvariantError, UnsolvableError, numbered, shown
 from graphs.mechanism.sc import SCGraph
 from graphs.printing import Block, Printed, plain

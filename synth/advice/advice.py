@@ -2,7 +2,7 @@
 
 from collections import Counter
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import asdict, dataclass, field, replace
+from dataclasses import dataclass, field, replace
 from itertools import islice
 from math import inf, isfinite
 from typing import Any, overload
@@ -13,6 +13,7 @@ from graphs.edit.named import known
 from graphs.errors import InvariantError, NumericalError, UnsolvableError, check_argument, numbered, shown
 from graphs.mechanism.precision import lies_flat
 from graphs.mechanism.sheet import Sheet
+from graphs.plain_data import fields_to_json
 from graphs.printing import Block, Printed, TableBlock
 from graphs.rank.singular_values import spectrum, split
 from graphs.tolerances import DOUBLE
@@ -48,7 +49,7 @@ class Locked:
     joints : tuple of joint ids
     weight : float
         Sum of their weights.
-    flaps, still : tuple of joint ids
+    flaps, immobile : tuple of joint ids
         Those of them that are in no loop: they stop a flap, and nothing else; and other joints that are immobile
         then.
     play : float
@@ -62,14 +63,14 @@ class Locked:
     joints: tuple[JointId, ...]
     weight: float
     flaps: tuple[JointId, ...]
-    still: tuple[JointId, ...]
+    immobile: tuple[JointId, ...]
     play: float
     freedoms: int | None
     left_out: int | None = None
 
     def to_json(self) -> dict[str, Any]:
         """Return plain data."""
-        return {name: list(value) if isinstance(value, tuple) else value for name, value in asdict(self).items()}
+        return fields_to_json(self)
 
 
 @dataclass(frozen=True, slots=True)
@@ -138,20 +139,9 @@ class Advice(Printed):
 
     def to_json(self) -> dict[str, Any]:
         """Return the answer as plain data, with the keys that scripts rely on (docs/command-json.md)."""
-        return {
-            "configuration": self.configuration.to_json(self.taken),
-            "freedoms": self.freedoms,
-            "wanted": self.wanted,
-            "branch": self.branch,
-            "flaps": list(self.flaps),
-            "locks": [one.to_json() for one in self.locks],
-            "creases": [one.to_json() for one in self.creases],
-            "more": self.more,
-            "used_up": self.used_up,
-            "searched": self.searched,
-            "refused": self.refused,
-            "mended": list(self.configuration.mended),
-        }
+        at = self.configuration
+        fields = fields_to_json(self, without=["configuration"])
+        return {"configuration": at.to_json(self.taken), **fields, "mended": list(at.mended)}
 
     def blocks(self) -> list[Block]:
         """Return the lines and the table that are printed."""
@@ -174,7 +164,7 @@ class Advice(Printed):
                 _names(one.joints),
                 f"{one.weight:g}",
                 _names(one.flaps),
-                _names(one.still),
+                _names(one.immobile),
                 f"> {_LOOSE:.0f}" if one.play > _LOOSE else f"{one.play:.3g}",
                 _number(one.freedoms),
                 _number(one.left_out),
@@ -602,7 +592,7 @@ def _locked(pose: GeneralPose, places: tuple[int, ...], costs: Sequence[Cost]) -
     every = list(pose.linkage.graph.joints)
     chosen = set(places)
     parts = split(pose.rates[list(places)])
-    still = np.abs(pose.rates @ parts.right[len(places) :].T).max(axis=1, initial=0.0) <= DOUBLE.zero_rate
+    immobile = np.abs(pose.rates @ parts.right[len(places) :].T).max(axis=1, initial=0.0) <= DOUBLE.zero_rate
     flaps = set(pose.flaps)
     matrix: Floats = ClosureEquations(pose.linkage).at(pose.linkage.angles)[1].toarray()
     others = np.delete(matrix, list(places), axis=1)
@@ -611,7 +601,7 @@ def _locked(pose: GeneralPose, places: tuple[int, ...], costs: Sequence[Cost]) -
         tuple(every[place] for place in places),
         sum(costs[place][0] for place in places),
         tuple(every[place] for place in places if place in flaps),
-        tuple(joint for place, joint in enumerate(every) if place not in chosen and still[place]),
+        tuple(joint for place, joint in enumerate(every) if place not in chosen and immobile[place]),
         float(1.0 / parts.values[-1]) if parts.values[-1] else inf,
         None if rank is None else others.shape[1] - rank,
     )

@@ -18,7 +18,7 @@ from graphs.mechanism.sc import SCGraph
 from graphs.tolerances import DOUBLE
 from graphs.types import Floats, Ints, LinkId
 from synth.atlas.signatures import COMPARED, Around, MotionCurve
-from synth.members.circuits import Circuits, across, circuits_of, product, relative
+from synth.members.circuits import MemberCircuits, across, circuits_of, product, relative
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -126,7 +126,7 @@ class AxisFit:
     def _residual(self, which: Ints, around: Around, begins: Floats) -> Floats:
         return np.asarray(_angles(around.at(self._parts(which, around.lengths, begins))) - self._wanted)
 
-    def _rows(self, which: Ints, circuits: Circuits) -> Floats:
+    def _rows(self, which: Ints, circuits: MemberCircuits) -> Floats:
         """Return the motions of the two links of some members."""
         turned = circuits.rotations()
         rows = np.empty((*circuits.angles.shape[:2], 4))
@@ -157,7 +157,7 @@ class AxisFit:
 
     def _jacobian(self, which: Ints, unknowns: Floats, residual: Floats, angles: Floats) -> Floats:
         axes, begins = self._parted(unknowns)
-        circuits = Circuits(self._chain, axes, angles, np.ones(len(which), dtype=bool))
+        circuits = MemberCircuits(self._chain, axes, angles, np.ones(len(which), dtype=bool))
         rows, rates = circuits.with_rates([self._pairs[member] for member in which.tolist()])
         turns = np.concatenate([np.zeros((*rates.shape[:3], 1)), 0.5 * _FITTING.nudge * rates], axis=-1)
         moved = unit(rows[:, :, None] + product(turns, np.broadcast_to(rows[:, :, None], turns.shape)))

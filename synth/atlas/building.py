@@ -10,7 +10,7 @@ import shlex
 import sqlite3
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import closing
-from dataclasses import asdict, dataclass, fields
+from dataclasses import dataclass, fields
 from functools import cached_property
 from importlib.metadata import version
 from pathlib import Path
@@ -31,6 +31,7 @@ from enumerate.scd.query import PlacementQuery, SCDQuery
 from enumerate.strings.panel_strings import strings
 from graphs.errors import InvariantError
 from graphs.files.formats import mechanism_of_id
+from graphs.plain_data import fields_to_json
 from synth.atlas.columns import COLUMNS, RELATIONS, SCHEMA, stored_columns
 from synth.atlas.filling import filled
 from synth.candidates.job import CandidateJob
@@ -110,7 +111,7 @@ class AtlasPlan:
     @property
     def key(self) -> dict[str, Any]:
         """The plan in JSON values."""
-        return {**asdict(self), "dofs": list(self.dofs), "orders_of": list(self.orders_of)}
+        return fields_to_json(self)
 
     @property
     def command(self) -> str:

@@ -37,6 +37,7 @@ from graphs.mechanism.precision import in_space
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import HingedSolids
+from graphs.plain_data import fields_to_json
 from graphs.printing import Block, Printed, TableBlock, plain
 from graphs.types import Floats, JointId, LinkId
 from synth.atlas.axis_fit import AxisFit
@@ -57,7 +58,7 @@ from synth.atlas.signatures import (
     signatures_of,
 )
 from synth.guidance.orientations import Orientations, read_orientations
-from synth.members.circuits import Circuits, circuits_of, product, relative, spherical_of
+from synth.members.circuits import MemberCircuits, circuits_of, product, relative, spherical_of
 
 _VERSION = 1
 """Version of the table, and of what its numbers mean."""
@@ -89,7 +90,7 @@ def _pairs(chain: SCGraph, *, points: bool) -> list[_Pair]:
 
 
 @dataclass(frozen=True, slots=True)
-class MotionTable(Printed):
+class AtlasMotions(Printed):
     """What a table of motions holds, or will hold.
 
     Attributes
@@ -110,10 +111,7 @@ class MotionTable(Printed):
 
     def to_json(self) -> dict[str, Any]:
         """Return the keys that scripts rely on."""
-        return {
-            "chains": list(self.chains), "members": self.members, "motions": self.motions, "paths": self.paths,
-            "megabytes": round(self.megabytes, 2),
-        }  # fmt: skip
+        return fields_to_json(self, megabytes=round(self.megabytes, 2))
 
     def blocks(self) -> list[Block]:
         """Return the line that is printed."""
@@ -127,15 +125,15 @@ class MotionTable(Printed):
 _BYTES = 4 * (CIRCUIT + ROUND * len(SPANS))
 
 
-def planned_motions(atlas: Atlas, members: int, *, max_links: int = 8) -> MotionTable:
+def planned_motions(atlas: Atlas, members: int, *, max_links: int = 8) -> AtlasMotions:
     """Return what `add_motions` will store, before it starts, if all circuits close."""
     chains = _chains(atlas, max_links)
-    table = MotionTable((), 0, 0, 0, 0.0)
+    table = AtlasMotions((), 0, 0, 0, 0.0)
     for code in chains:
         chain = mechanism_of_id(code)
         motions, paths = len(_pairs(chain, points=False)), len(_pairs(chain, points=True))
         size = members * (_BYTES * (motions + paths) + 24 * (len(chain) + len(chain.joints)))
-        table = MotionTable(
+        table = AtlasMotions(
             chains, table.members + members, table.motions + members * motions, table.paths + members * paths,
             table.megabytes + size / 1e6,
         )  # fmt: skip
@@ -150,7 +148,7 @@ def add_motions(
     seed: int = 0,
     force: bool = False,
     report: Callable[[int], None] | None = None,
-) -> MotionTable:
+) -> AtlasMotions:
     """Add the motions of random members of each chain to an atlas, or continue a table that is not complete.
 
     Parameters
@@ -170,7 +168,7 @@ def add_motions(
 
     Returns
     -------
-    MotionTable
+    AtlasMotions
 
     Raises
     ------
@@ -241,7 +239,7 @@ def _unit_row(chain: SCGraph, code: str, number: int, count: int, seed: int) -> 
     directions = unit(random.normal(size=(_UNIT, joints + len(chain), 3))[:count])
     circuits = circuits_of(chain, directions[:, :joints])
     kept = circuits.closed
-    rotations = Circuits(circuits.chain, circuits.axes[kept], circuits.angles[kept], kept[kept]).rotations()
+    rotations = MemberCircuits(circuits.chain, circuits.axes[kept], circuits.angles[kept], kept[kept]).rotations()
     arrays: list[npt.NDArray[Any]] = [directions[kept]]
     for points in (False, True):
         pairs = _pairs(chain, points=points)
@@ -275,7 +273,7 @@ def _array(path: Path, blob: object, kind: type, shape: tuple[int, ...]) -> npt.
     raise StoreError(f"{plain(path, 4096)}: the table of motions is damaged; try synth atlas motions --force")
 
 
-def stored_motions(atlas: Atlas) -> MotionTable:
+def stored_motions(atlas: Atlas) -> AtlasMotions:
     """Return what the table of motions of an atlas holds; StoreError, with what to do, if there is none."""
     chains: dict[str, SCGraph] = {}
     members = motions = paths = size = 0
@@ -291,7 +289,7 @@ def stored_motions(atlas: Atlas) -> MotionTable:
             motions += count * len(_pairs(chain, points=False))
             paths += count * len(_pairs(chain, points=True))
             size += whole
-    return MotionTable(tuple(chains), members, motions, paths, size / 1e6)
+    return AtlasMotions(tuple(chains), members, motions, paths, size / 1e6)
 
 
 def _check_table(connection: sqlite3.Connection, path: Path) -> None:

@@ -24,6 +24,7 @@ import numpy as np
 from enumerate.runner.store_units import COMPLAINTS, quoted, reading
 from graphs.edit.named import known
 from graphs.errors import InvariantError, StoreError, SynthedraError, UnsolvableError, numbered, shown
+from graphs.plain_data import fields_to_json
 from graphs.printing import Block, Printed, TableBlock, plain
 from synth.atlas.columns import COLUMNS, RELATIONS, SCHEMA, NamedType, named_types, text_values, value_of
 
@@ -194,7 +195,7 @@ class Neighbour:
 
     def to_json(self) -> dict[str, Any]:
         """Return plain data."""
-        return {"relation": self.relation, "id": self.id, "name": self.name, "in_the_atlas": self.there}
+        return fields_to_json(self, keys={"there": "in_the_atlas"})
 
 
 @dataclass(frozen=True, slots=True)

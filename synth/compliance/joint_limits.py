@@ -4,7 +4,7 @@ Theory: docs/theory/activating-constraints.md.
 """
 
 from collections.abc import Collection, Iterator
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from math import acos, atan2, degrees, inf, pi, tau
 from typing import Any, Literal
 
@@ -12,6 +12,7 @@ import numpy as np
 
 from graphs.errors import UnsolvableError, check_argument, numbered, shown
 from graphs.geometry import angles_between, lines_meet
+from graphs.plain_data import fields_to_json
 from graphs.printing import Block, Printed, TableBlock
 from graphs.rank.singular_values import spectrum
 from graphs.reduce.ride_alongs import ReductionStep, reduce
@@ -83,7 +84,7 @@ class Truss:
 
     def to_json(self) -> dict[str, Any]:
         """Return plain data."""
-        return {**asdict(self), "locked": list(self.locked)}
+        return fields_to_json(self)
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -111,11 +112,7 @@ class JointLimits(Printed):
 
     def to_json(self) -> dict[str, Any]:
         """Return the answer as plain data, with the keys that scripts rely on (docs/command-json.md)."""
-        return {
-            "configuration": self.configuration.to_json(other_question=_OTHER_QUESTION),
-            "ride_alongs": [ride_along.to_json() for ride_along in self.ride_alongs],
-            "truss": self.truss.to_json(),
-        }
+        return fields_to_json(self, configuration=self.configuration.to_json(other_question=_OTHER_QUESTION))
 
     def blocks(self) -> list[Block]:
         """Return the lines and the table that are printed."""

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from copy import copy
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, replace
 from html import escape
 from math import degrees
 from pathlib import Path
@@ -22,6 +22,7 @@ from graphs.errors import InvariantError, SynthedraError, UnsolvableError, numbe
 from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import HingedSolids
 from graphs.mechanism.surfaces import SurfaceLinkage
+from graphs.plain_data import fields_to_json
 from graphs.printing import Block, Printed, TableBlock
 from graphs.tolerances import DOUBLE
 from graphs.types import Floats, LinkId
@@ -98,7 +99,7 @@ class WishFigure:
 
     def record(self) -> dict[str, Any]:
         """Return what a store holds, radians: the fields by name."""
-        return {**asdict(self), "sensitivity": dict(self.sensitivity)}
+        return fields_to_json(self)
 
 
 @dataclass(frozen=True, repr=False)

@@ -335,10 +335,10 @@ def _followed(start: _Start, driver: int, angle: float, frames: int, *, straight
     pattern, joints = start.pattern, start.pattern.joints
     goal = float(np.sign(start.rates[driver])) * angle
     limited = np.ones(len(joints), dtype=bool)
-    still, allowance = tuple[int, ...](), Allowance(_STEPS)
+    immobile, allowance = tuple[int, ...](), Allowance(_STEPS)
     if start.branch is not None and pattern.branches is not None:
-        still = pattern.branches.branch(start.branch).still
-    options = PathOptions(start.rates, limited, straight, names=joints, allowance=allowance, locked=still)
+        immobile = pattern.branches.branch(start.branch).immobile
+    options = PathOptions(start.rates, limited, straight, names=joints, allowance=allowance, locked=immobile)
     goals = [[goal * (number + 1) / frames] for number in range(frames)]
     path = driven_path(start.closure, pattern.linkage.angles, [driver], goals, options=options)
     return motion_along(pattern, DrivenMotion(start.branch, [driver], {joints[driver]: goal}, path))

@@ -143,9 +143,9 @@ def _letters(at: SheetConfiguration, number: int) -> list[str]:
         moving = np.abs(general) > DOUBLE.zero_rate
         rates = near.rates if (sizes[moving] > DOUBLE.zero_rate).all() else general
     late = (at.linkage.angles - branch.sample) * (-1.0 if general @ branch.rates > 0.0 else 1.0)
-    late = late / np.abs(late).max(initial=DOUBLE.zero)  # joints without rates may still move, later
-    still = np.isin(np.arange(len(rates)), branch.still)
-    first = np.where(still | (np.abs(rates) <= DOUBLE.zero_rate), 0.0, rates)
+    late = late / np.abs(late).max(initial=DOUBLE.zero)  # joints without rates may yet move, later
+    immobile = np.isin(np.arange(len(rates)), branch.immobile)
+    first = np.where(immobile | (np.abs(rates) <= DOUBLE.zero_rate), 0.0, rates)
     begins = np.where(first != 0.0, first, np.where(np.abs(late) > DOUBLE.zero_rate, late, 0.0))
     return ["F" if rate == 0.0 else "V" if rate > 0.0 else "M" for rate in begins.tolist()]
 

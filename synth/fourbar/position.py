@@ -6,15 +6,11 @@ right-handed about the outward axes (Hyatt et al. 2020, section 6, put right: do
 has two branches, which are the circuits of linkages whose input turns fully. Theory: docs/theory/four-bars.md.
 """
 
-from typing import Literal
-
 import numpy as np
 import numpy.typing as npt
 
 from graphs.tolerances import DOUBLE
 from graphs.types import Floats
-
-Branch = Literal[1, -1]
 
 
 def output_planar(lengths: npt.ArrayLike, theta: npt.ArrayLike, branch: npt.ArrayLike = 1) -> Floats:

@@ -14,6 +14,7 @@ from typing import Any
 import networkx as nx
 import numpy as np
 
+from graphs.plain_data import fields_to_json
 from graphs.printing import plain
 from synth.layering.constraints import PairTable, layer_constraints
 from synth.layering.counting.problem import LayerProblem, solutions
@@ -70,7 +71,7 @@ class CoreCondition:
 
     def to_json(self) -> dict[str, Any]:
         """Return plain data."""
-        return {"kind": self.kind, "panels": list(self.panels), "joints": list(self.joints)}
+        return fields_to_json(self)
 
 
 @dataclass(frozen=True, slots=True)
@@ -97,11 +98,7 @@ class LayerCore:
 
     def to_json(self) -> dict[str, Any]:
         """Return plain data."""
-        return {
-            "panels": list(self.panels),
-            "conditions": [condition.to_json() for condition in self.conditions],
-            "confirmed": self.confirmed,
-        }
+        return fields_to_json(self)
 
 
 Heights = Sequence[tuple[int, int, int]]

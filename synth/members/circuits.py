@@ -22,7 +22,7 @@ from graphs.tolerances import DOUBLE
 from graphs.types import Flags, Floats, Ints, JointId, LinkId
 from synth.assembly.family import family_of
 from synth.members.dimensions import checked_axes, type_of
-from synth.members.kernel import CLOSED, Members, MemberType, swept
+from synth.members.kernel import CLOSED, MemberArrays, MemberType, swept
 from synth.motion.linkage import linkage_of_axes
 
 _STEP, _AT_ONCE, _MOST = 0.05, 8, 1280
@@ -34,7 +34,7 @@ _BEYOND = 8
 
 
 @dataclass(frozen=True, slots=True)
-class Circuits:
+class MemberCircuits:
     """The circuits of members, each at frames that are equally far apart along it, by the turns of all joints.
 
     Attributes
@@ -157,7 +157,7 @@ def spherical_of(chain: SCGraph) -> SCGraph:
     return chain.with_loops([Loop(loop.joints, Centre.FINITE) for loop in independent_cycles(chain.with_loops([]))])
 
 
-def circuits_of(chain: SCGraph, axes: npt.ArrayLike, *, frames: int = 256) -> Circuits:
+def circuits_of(chain: SCGraph, axes: npt.ArrayLike, *, frames: int = 256) -> MemberCircuits:
     """Trace the circuits through the configurations at which members of a spherical chain have given axes.
 
     Parameters
@@ -171,7 +171,7 @@ def circuits_of(chain: SCGraph, axes: npt.ArrayLike, *, frames: int = 256) -> Ci
 
     Returns
     -------
-    Circuits
+    MemberCircuits
         Frames come by a quintic spline through configurations 0.05 radians apart. A member whose circuit
         passes a singular configuration, or is longer than 1280 of these steps, is not closed.
 
@@ -199,7 +199,7 @@ def circuits_of(chain: SCGraph, axes: npt.ArrayLike, *, frames: int = 256) -> Ci
     angles = np.full((len(directions), frames, len(chain.joints)), np.nan)
     for member in np.flatnonzero(tracing.closed):
         angles[member] = _resampled(tracing.angles[member, : tracing.count[member]], frames)
-    return Circuits(chain, directions, angles, tracing.closed)
+    return MemberCircuits(chain, directions, angles, tracing.closed)
 
 
 def _types(chain: SCGraph) -> list[MemberType]:
@@ -230,7 +230,7 @@ class _Tracing:
         kind = self.types[driven]
         here = self.angles[who, self.count[who] - 1]
         others = np.delete(here, driven, axis=1)
-        members = Members(self.axes[who][:, kind.joint], np.hstack([others, here[:, [driven]]]))
+        members = MemberArrays(self.axes[who][:, kind.joint], np.hstack([others, here[:, [driven]]]))
         answer = swept(kind, members, np.ascontiguousarray(inputs[..., None]), len(who), kind.column)
         return answer.angles, answer.status == CLOSED
 

@@ -19,13 +19,13 @@ from synth.assembly.family import Family, family_of
 from synth.assembly.kernel import DIRECTION, POINT, SLIDE
 from synth.folding.configuration import SheetConfiguration
 from synth.fourbar.closing import can_close
-from synth.members.kernel import Members, MemberType
+from synth.members.kernel import MemberArrays, MemberType
 from synth.motion.configuration import Configuration
 from synth.motion.linkage import PosedLinkage
 from synth.moving.made import Movable, configuration_of
 
 Arcs = dict[tuple[JointId, JointId], float]
-Dimensions = Mapping[str, npt.ArrayLike | Mapping[tuple[JointId, JointId], npt.ArrayLike]]
+MemberDimensions = Mapping[str, npt.ArrayLike | Mapping[tuple[JointId, JointId], npt.ArrayLike]]
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,7 +35,7 @@ class Batch:
     `barred`, bool[N], are those that cannot close, whatever the inputs; `why` says why, where more is known.
     """
 
-    members: Members
+    members: MemberArrays
     zero: Floats
     barred: Flags
     why: dict[int, str] = field(default_factory=dict)
@@ -104,11 +104,13 @@ def axes_of(family: Family, parameters: Floats) -> Floats:
     return np.asarray(axes[..., family.loops[family.loops >= 0], :])
 
 
-def batch_of(at: Configuration, family: Family, parameters: Floats, dimensions: Dimensions, driven: Ints) -> Batch:
+def batch_of(
+    at: Configuration, family: Family, parameters: Floats, dimensions: MemberDimensions, driven: Ints
+) -> Batch:
     """Return the members that have given dimensions, of one kind."""
     names = sorted(dimensions)
     if not names:  # the mechanism alone
-        members = Members(axes_of(family, parameters), np.zeros(len(family.joints)))
+        members = MemberArrays(axes_of(family, parameters), np.zeros(len(family.joints)))
         return Batch(members, at.linkage.angles, np.zeros(1, dtype=bool))
     if len(names) != 1 or names[0] not in ("arcs", "axes", "points", "coordinates"):
         listed = ", ".join(map(shown, names))
@@ -154,7 +156,7 @@ def _by_arcs(linkage: PosedLinkage, family: Family, parameters: Floats, given: o
     for loop in linkage.loops:
         barred |= ~can_close(values[:, [column[frozenset((names[a], names[b]))] for a, b in _links(loop.joints)]])
     start = np.zeros(len(family.joints))
-    return Batch(Members(axes, start, normals, bends), linkage.angles, barred)
+    return Batch(MemberArrays(axes, start, normals, bends), linkage.angles, barred)
 
 
 def _columns(given: object, arcs: Arcs) -> Floats:
@@ -220,7 +222,7 @@ def checked_points(linkage: PosedLinkage, given: object) -> Floats:
     return np.asarray((points - linkage.middle) / linkage.extent)
 
 
-def spatial_axes(linkage: PosedLinkage, dimensions: Dimensions) -> tuple[Floats, Floats]:
+def spatial_axes(linkage: PosedLinkage, dimensions: MemberDimensions) -> tuple[Floats, Floats]:
     """Return directions and points of the joints of members with spatial loops, float[N, J, 3], points in extents.
 
     What is not given is that of the linkage.
@@ -242,7 +244,7 @@ def _by_axes(linkage: PosedLinkage, family: Family, given: object) -> Batch:
     if not kind.curved.all():
         raise UnsolvableError("axes are directions, which require spherical loops: of planar ones give points")
     place = np.array([list(linkage.graph.joints).index(joint) for joint in family.joints])
-    members = Members(unit(axes[:, place[kind.joint]]), np.zeros(len(family.joints)))
+    members = MemberArrays(unit(axes[:, place[kind.joint]]), np.zeros(len(family.joints)))
     return Batch(members, linkage.angles, np.zeros(len(axes), dtype=bool))
 
 
@@ -252,7 +254,7 @@ def _by_points(linkage: PosedLinkage, family: Family, given: object, driven: Int
     axes = np.zeros((len(points), len(kind.joint), 3))
     for member, moved in enumerate(points):
         axes[member] = axes_of(family, family_of(replace(linkage, points=moved), names)[1])
-    return Batch(Members(axes, np.zeros(len(family.joints))), linkage.angles, np.zeros(len(points), dtype=bool))
+    return Batch(MemberArrays(axes, np.zeros(len(family.joints))), linkage.angles, np.zeros(len(points), dtype=bool))
 
 
 def checked_coordinates(at: SheetConfiguration, given: object) -> Floats:
@@ -283,4 +285,4 @@ def _by_coordinates(at: Configuration, family: Family, coordinates: Floats, driv
             continue
         axes[member], zero[member] = axes_of(own, parameters), linkage.angles
     barred = np.isin(np.arange(len(coordinates)), list(why))
-    return Batch(Members(axes, np.zeros(len(family.joints))), zero, barred, why)
+    return Batch(MemberArrays(axes, np.zeros(len(family.joints))), zero, barred, why)

@@ -62,7 +62,7 @@ class MemberType:
 
 
 @dataclass(frozen=True, slots=True)
-class Members:
+class MemberArrays:
     """Members of a type, and where they begin.
 
     `axes`, float[P, 3] or float[N, P, 3], is the axis of each passage: a direction, or in a plane the point, with 1,
@@ -161,7 +161,7 @@ class _Batch:
             unknowns[left] -= change[left]
         return unknowns, self.at(who, unknowns, inputs)
 
-    def bent(self, members: Members, who: Ints, part: Floats) -> None:
+    def bent(self, members: MemberArrays, who: Ints, part: Floats) -> None:
         """Bend the links of some members by a part, float[n], of what they are to be bent by."""
         assert members.bends is not None
         assert members.normals is not None
@@ -175,7 +175,7 @@ class _Batch:
             self.undone[who, loop] = turned
 
 
-def swept_by_numpy(kind: MemberType, members: Members, inputs: Floats, columns: Ints, answer: Swept) -> None:
+def swept_by_numpy(kind: MemberType, members: MemberArrays, inputs: Floats, columns: Ints, answer: Swept) -> None:
     """Write into the answer what `swept` returns."""
     count, rows, _ = answer.angles.shape
     batch = _Batch(
@@ -244,7 +244,7 @@ def _went(batch: _Batch, who: Ints, goal: Floats, sign: Floats) -> Flags:
     return np.asarray(reached)
 
 
-def _became(batch: _Batch, members: Members, who: Ints, sign: Floats) -> Flags:
+def _became(batch: _Batch, members: MemberArrays, who: Ints, sign: Floats) -> Flags:
     """Bend links to those of members while inputs stay; return of which loops stay closed."""
     assert members.bends is not None
     most = np.abs(members.bends[who]).max(axis=1, initial=0.0)
@@ -313,7 +313,7 @@ _AT_ONCE = 2048
 
 def swept(
     kind: MemberType,
-    members: Members,
+    members: MemberArrays,
     inputs: Floats,
     count: int,
     columns: Ints,
@@ -338,7 +338,7 @@ def swept(
 def _in_library(
     found: ctypes.CDLL,
     kind: MemberType,
-    members: Members,
+    members: MemberArrays,
     inputs: Floats,
     columns: Ints,
     answer: Swept,

@@ -21,7 +21,7 @@ from graphs.tolerances import DOUBLE
 from graphs.types import Flags, Floats, Ints, JointId
 from synth.assembly.family import family_of
 from synth.folding.configuration import SheetConfiguration
-from synth.members.dimensions import Dimensions, batch_of, checked_coordinates, spatial_axes, type_of
+from synth.members.dimensions import MemberDimensions, batch_of, checked_coordinates, spatial_axes, type_of
 from synth.members.kernel import BARRED, CLOSED, OPEN, TURNS_BACK, Swept, swept
 from synth.motion.configuration import Configuration
 from synth.motion.driving import MotionOptions, driven_from
@@ -124,7 +124,7 @@ class Sweep(Printed):
 
 def sweep(
     mechanism: Movable,
-    parameters: Dimensions,
+    parameters: MemberDimensions,
     *,
     drive: Mapping[JointId, npt.ArrayLike],
     joints: Sequence[JointId] | None = None,
@@ -243,7 +243,7 @@ def _is_flat(at: Configuration) -> bool:
 
 def _walked(
     at: Configuration,
-    parameters: Dimensions,
+    parameters: MemberDimensions,
     drive: Mapping[JointId, npt.ArrayLike],
     driven: Ints,
     joints: Sequence[JointId] | None,

@@ -157,11 +157,11 @@ def _branches_beside(linkage: PosedLinkage, held: Sequence[int], search: Search)
     rigid = part_of(linkage, held, sorted(numbers))
     proof = second_order.Rigidity("cases", 0, None, None, ())
     order = tuple(range(len(held)))
-    still = Part(*rigid, Branches((), True, False, True, "second order", proof, order))
+    rigid_part = Part(*rigid, Branches((), True, False, True, "second order", proof, order))
     if rest is None:
-        return still.branches
+        return rigid_part.branches
     others = branches_of(rest.linkage, None, _search_of_part(search, rest.joints, 1))
-    return product_of([still, Part(*rest, others)])
+    return product_of([rigid_part, Part(*rest, others)])
 
 
 def _search_of_part(search: Search, joints: Ints, parts: int) -> Search:
@@ -304,7 +304,7 @@ class _BranchSearch:
             branch,
             space=branch.space.in_order(self._place),
             rates=self.as_filed(branch.rates),
-            still=tuple(sorted(order[list(branch.still)].tolist())),
+            immobile=tuple(sorted(order[list(branch.immobile)].tolist())),
             modes=tuple(None if pair is None else (pair[0], pair[1]) for pair in pairs),
             sample=self.as_filed(branch.sample),
         )
@@ -476,7 +476,7 @@ class _BranchSearch:
     def branch(self, part: _Beginning, *, proved: bool, late: bool) -> Branch:
         """Return a branch that begins at some rates, followed unless it is late."""
         space, rates = part.space, part.rates
-        still = tuple(np.flatnonzero(np.abs(space.basis).max(axis=1) <= DOUBLE.zero_rate).tolist())
+        immobile = tuple(np.flatnonzero(np.abs(space.basis).max(axis=1) <= DOUBLE.zero_rate).tolist())
         linear = self.vertices.linear and not space.left
         beside = None if linear or proved else self._freedoms_beside(rates)
         if linear:
@@ -486,7 +486,7 @@ class _BranchSearch:
         else:
             self._allowance.left = max(self._allowance.left, _AT_LEAST)
             counted = not (beside or proved)
-            end = followed(self.linkage, self.closure, rates, still, self._allowance, counted=counted)
+            end = followed(self.linkage, self.closure, rates, immobile, self._allowance, counted=counted)
         certainty: Certainty = "numerical" if end.far else "not known"
         freedoms = beside or end.freedoms if end.far else None
         if freedoms is not None and self.all_spaces and freedoms > most_freedoms(space, rates):
@@ -497,7 +497,7 @@ class _BranchSearch:
             freedoms, certainty = 1, "proved"
         modes, begun = self.vertices.modes(rates), not late or certainty == "proved"
         followed_to = (end.sample, end.error, end.far, begun, part.component)
-        return Branch(freedoms, certainty, space, rates, still, modes, *followed_to)
+        return Branch(freedoms, certainty, space, rates, immobile, modes, *followed_to)
 
     def is_whole(self, branch: Branch) -> bool:
         """Tell whether a branch has all rates that second order leaves where it begins, and is alone there.

@@ -337,9 +337,9 @@ class Configuration:
     def to_json(self, branch: Branch | None = None, other_question: str | None = None) -> dict[str, Any]:
         """Return the key ``configuration`` of an answer: its branch, or `other_question`, why it has none."""
         branches = None if other_question else self.branches
-        freedoms, still = (None, None) if branch is None else (branch.freedoms, branch.still)
+        freedoms, immobile = (None, None) if branch is None else (branch.freedoms, branch.immobile)
         if branches is not None and branches.no_motion == "proved":
-            freedoms, still = 0, tuple(range(len(self.joints)))
+            freedoms, immobile = 0, tuple(range(len(self.joints)))
         return {
             "links": len(self.linkage.graph),
             "joints": [str(joint) for joint in self.joints],
@@ -351,7 +351,7 @@ class Configuration:
             else {"number": branches.numbered, "exhaustive": branches.exhaustive, **branches.count_to_json()},
             "branch": None if branch is None else branch.signs,
             "freedoms": freedoms,
-            "immobile_joints": None if still is None else [str(self.joints[place]) for place in still],
+            "immobile_joints": None if immobile is None else [str(self.joints[place]) for place in immobile],
             "other_question": other_question,
         }
 

@@ -217,10 +217,10 @@ def driven_from(configuration: Configuration, options: MotionOptions) -> DrivenM
     by_least_rates = branches is not None and branches.regular and len(options.drive) == 1
     direction = None if by_least_rates else rates  # any others might soon turn the driven joint back
     allowance = Allowance(_STEPS + _STEPS_OF_FRAME * options.frames)
-    still = () if number is None or branches is None else branches.branch(number).still
+    immobile = () if number is None or branches is None else branches.branch(number).immobile
     signs = _signs(configuration, rates, places) if configuration.limited else None
     straight, report, events = bool(options.along), options.report, options.events
-    on_path = PathOptions(direction, limited, straight, report, joints, allowance, still, events, signs)
+    on_path = PathOptions(direction, limited, straight, report, joints, allowance, immobile, events, signs)
     values = start + steps * (goals - start) if options.values is None else options.values
     path = _path(closure, linkage.angles, places, values, on_path)
     ends = {joints[place]: float(goal) for place, goal in zip(places, goals, strict=True)}

@@ -52,7 +52,7 @@ class Branch:
         The rates at which it can begin.
     rates : float[J]
         Initial rates of one motion along the branch; the largest is 1 or -1.
-    still : tuple of int
+    immobile : tuple of int
         Places of the joints that are immobile on it.
     modes : tuple of (int, int) or None
         For each loop that is a moving flat vertex of four creases the places of the opposite ones that fold alike.
@@ -79,7 +79,7 @@ class Branch:
     certainty: Certainty
     space: RateSpace
     rates: Floats
-    still: tuple[int, ...]
+    immobile: tuple[int, ...]
     modes: tuple[tuple[int, int] | None, ...]
     sample: Floats
     error: float
@@ -105,7 +105,7 @@ class Branch:
             "signs": self.signs,
             "freedoms": self.freedoms,
             "certainty": self.certainty,
-            "still": len(self.still),
+            "immobile": len(self.immobile),
             "modes": [None if pair is None else [joints[place] for place in pair] for pair in self.modes],
             "followed_deg": degrees(self.followed),
             "closure": self.error,
@@ -297,7 +297,7 @@ def _at_rest(part: Part) -> Counter[int | None]:
 def joined(branches: Branches, number: int) -> Branch:
     """Return the branch of several parts that consists of one of each, by its number."""
     size = sum(len(part.joints) for part in branches.parts)
-    rates, sample, still = np.zeros(size), np.zeros(size), list[int]()
+    rates, sample, immobile = np.zeros(size), np.zeros(size), list[int]()
     bases: list[Floats] = []
     left, chosen = list[Quadric](), list[Branch]()
     modes: list[tuple[int, int] | None] = [None] * sum(len(part.loops) for part in branches.parts)
@@ -305,12 +305,12 @@ def joined(branches: Branches, number: int) -> Branch:
         joints = part.joints
         sample[joints] = part.linkage.angles
         if not part.choices:
-            still += joints.tolist()
+            immobile += joints.tolist()
             continue
         branch = part.choices[place]
         chosen.append(branch)
         rates[joints], sample[joints] = branch.rates, branch.sample
-        still += joints[list(branch.still)].tolist()
+        immobile += joints[list(branch.immobile)].tolist()
         basis = np.zeros((size, branch.space.basis.shape[1]))
         basis[joints] = branch.space.basis
         bases.append(basis)
@@ -326,7 +326,7 @@ def joined(branches: Branches, number: int) -> Branch:
         _weakest([branch.certainty for branch in moving]) if moving else "not known",
         RateSpace(np.concatenate(bases, axis=1), tuple(left)),
         rates,
-        tuple(sorted(still)),
+        tuple(sorted(immobile)),
         tuple(modes),
         sample,
         max(branch.error for branch in chosen),

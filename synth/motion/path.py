@@ -23,7 +23,7 @@ from synth.motion.closure import ClosureEquations
 from synth.motion.singular.second_order import rates_at
 from synth.motion.walk.events import Limit, RankDeficiency, Return, TurningPoint
 from synth.motion.walk.step import WATCHED, Allowance, PathEvent, RankWatch
-from synth.motion.walk.walking import Event, Goal, KeptSigns, Walk
+from synth.motion.walk.walking import DrivenGoal, Event, KeptSigns, Walk
 
 _MOST_PAST = 1_000
 """Steps past a turning point."""
@@ -185,7 +185,7 @@ class Drive:
     def to(self, value: Floats) -> str:
         """Go on until the driven joints have given angles float[D], radians; return why they come no nearer."""
         walk, first, met = self._walk, len(self._frames), len(self._walk.met)
-        goal = Goal(self._drivers, value, walk.here, self._names)
+        goal = DrivenGoal(self._drivers, value, walk.here, self._names)
         turning = TurningPoint(goal.joint, goal.way)
         walk.towards(goal, [*self._events, *([] if goal.several else [turning]), goal, *self._others])
         while goal.ahead(walk.here) and (step := next(walk, None)) is not None:
@@ -211,7 +211,7 @@ class Drive:
         errors = np.array([frame.error for frame in self._frames])
         return Path(angles, errors, stopped, tuple(self._walk.met), self._watched)
 
-    def _nearest(self, goal: Goal, first: int, met: int) -> str:
+    def _nearest(self, goal: DrivenGoal, first: int, met: int) -> str:
         """Take back the frames beyond the turning point at which the driver came nearest to its goal."""
         walk, frames = self._walk, self._frames
         best = first + trailing(np.array([goal.ahead(frame) for frame in frames[first:]]), scale=1.0)

@@ -184,7 +184,7 @@ class SidesOfSurface(Event):
             self.now = now
 
 
-class Turns(Event):
+class TurnsPassed(Event):
     """The driving joint has one of some turns: `places` are the configuration before, the turn, joint angles."""
 
     def __init__(self, driver: int, turns: Sequence[float]) -> None:
@@ -226,7 +226,7 @@ class Course:
         cls, closure: ClosureEquations, links: SurfaceLinks, towards: Floats, turns: Sequence[float], driver: int
     ) -> Course:
         """Return the course that begins towards some rates."""
-        sides, at = SidesOfSurface(links, driver), Turns(driver, turns)
+        sides, at = SidesOfSurface(links, driver), TurnsPassed(driver, turns)
         circuit = circuit_through(
             closure, links.linkage.angles, towards=towards, events=[TurningPoint(driver), sides, at]
         )

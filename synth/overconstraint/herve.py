@@ -16,6 +16,7 @@ from graphs.errors import numbered
 from graphs.geometry import lines_meet, unit
 from graphs.joints.linkage import JointedLinkage
 from graphs.loops.loop import Centre
+from graphs.plain_data import fields_to_json
 from graphs.rank.singular_values import rank_of, row_space
 from graphs.tolerances import DOUBLE, Tolerances
 from graphs.types import Floats
@@ -67,13 +68,7 @@ class HerveClass:
 
     def to_json(self) -> dict[str, Any]:
         """Return plain data."""
-        return {
-            "class": self.kind,
-            "lambda": self.dimension,
-            "freedoms": self.freedoms,
-            "by_group": self.by_group,
-            "by_axes": self.by_axes,
-        }
+        return fields_to_json(self, keys={"kind": "class", "dimension": "lambda"})
 
     def __str__(self) -> str:
         if self.kind == "trivial":
@@ -304,8 +299,8 @@ class _Relations:
         for slide, axis in self._across:
             if root.count(root[slide]) == 1:
                 directions[slide] = unit(np.cross(directions[axis], directions[slide]))
-        still = np.zeros(number)
-        return replace(self._linkage, points=points, directions=directions, angles=still)
+        zeros = np.zeros(number)
+        return replace(self._linkage, points=points, directions=directions, angles=zeros)
 
     def _flatten(
         self,

@@ -258,7 +258,7 @@ class _Map:
 
 
 @dataclass(frozen=True, slots=True)
-class Symmetry:
+class SymmetryGroup:
     """A group of maps of a pattern to itself, by rotations and mirrors of the plane that keep its border.
 
     `turns` is the order of the rotations, 1 for none; mirrors are none, or as many as turns. A barycentric drawing
@@ -306,7 +306,7 @@ class Symmetry:
         return worst / float(np.ptp(places, axis=0).max())
 
 
-def symmetries(pattern: Pattern) -> tuple[Symmetry, ...]:
+def symmetries(pattern: Pattern) -> tuple[SymmetryGroup, ...]:
     """Return the groups of symmetries that a drawing may have, the largest first; none if there is none."""
     border = len(pattern.outer)
     turns = dict(_maps(pattern, mirrored=False))
@@ -323,9 +323,9 @@ def symmetries(pattern: Pattern) -> tuple[Symmetry, ...]:
             if mirrors.keys() >= set(with_mirrors):
                 of_mirrors = tuple(mirrors[shift] for shift in with_mirrors)
                 generators = (*first_turn, of_mirrors[0])
-                groups.append(Symmetry(len(group), len(group), (*of_turns, *of_mirrors), generators))
+                groups.append(SymmetryGroup(len(group), len(group), (*of_turns, *of_mirrors), generators))
         if len(group) > 1:
-            groups.append(Symmetry(len(group), 0, of_turns, first_turn))
+            groups.append(SymmetryGroup(len(group), 0, of_turns, first_turn))
     return tuple(sorted(groups, key=lambda symmetry: -(symmetry.turns + symmetry.mirrors)))
 
 
@@ -434,7 +434,7 @@ class DrawingConditions:
     """Further conditions on drawings: flat-foldable, symmetric under a group, or both, and others."""
 
     flat_foldable: bool = False
-    symmetry: Symmetry | None = None
+    symmetry: SymmetryGroup | None = None
     others: tuple[Condition, ...] = ()
 
     def conditions(self, pattern: Pattern) -> list[Condition]:

@@ -12,6 +12,7 @@ from graphs.errors import numbered
 from graphs.geometry import angles_between
 from graphs.mechanism.precision import extent_of, off_panel_planes
 from graphs.mechanism.sheet import Sheet
+from graphs.plain_data import fields_to_json
 from graphs.tolerances import DOUBLE
 from graphs.types import Floats, Ints
 from synth.realisation.pattern import Pattern
@@ -114,13 +115,12 @@ class ShapeFigures:
 
     def to_json(self) -> dict[str, Any]:
         """Return the keys that scripts rely on."""
-        return {
-            "least_angle_deg": float(np.degrees(self.least_angle)),
-            "greatest_angle_deg": float(np.degrees(self.greatest_angle)),
-            "edge_ratio": self.edge_ratio,
-            "planarity": self.planarity,
-            "least_distance": self.least_distance,
-        }
+        return fields_to_json(
+            self,
+            keys={"least_angle": "least_angle_deg", "greatest_angle": "greatest_angle_deg"},
+            least_angle=np.degrees(self.least_angle),
+            greatest_angle=np.degrees(self.greatest_angle),
+        )
 
 
 def figures_of(pattern: Pattern, sheet: Sheet, bent: Floats) -> ShapeFigures:

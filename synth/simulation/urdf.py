@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from graphs.errors import UnsolvableError, numbered
-from graphs.files.solids.meshes import Mesh, stl_bytes
+from graphs.files.solids.meshes import SolidMesh, stl_bytes
 from graphs.geometry import frame_about, unit
 from graphs.tolerances import DOUBLE
 from graphs.types import Floats
@@ -95,11 +95,11 @@ FILE = "%FILE%"
 """Stands for the name of the file, without its ending, until it is written."""
 
 
-def _mesh(plate: Plate, origin: Floats) -> Mesh:
+def _mesh(plate: Plate, origin: Floats) -> SolidMesh:
     """Return a plate in the frame of its link, millimetres."""
     flat = plate_of(plate.plane.flat, plate.thickness, "panel")
     corners = flat.corners @ plate.plane.axes.T + plate.plane.origin - origin
-    return Mesh(flat.name, 1000.0 * corners, flat.triangles)
+    return SolidMesh(flat.name, 1000.0 * corners, flat.triangles)
 
 
 def frame_along(direction: Floats) -> Floats:

@@ -14,7 +14,7 @@ from graphs.printing import plain
 from synth.drawing.mechanisms.chains import OrderOnCircle
 from synth.realisation.realised import Kind
 from synth.templates.hinges import Hinges
-from synth.templates.on_surface import Dimensions, surface_of, template_on_surface
+from synth.templates.on_surface import TemplateSizes, surface_of, template_on_surface
 from synth.templates.template import (
     FITTED,
     TABS,
@@ -133,10 +133,10 @@ def template_of_linkage(
     radius: float | None = None,
     **sizes: float | None,
 ) -> Template:
-    """Return the template of a linkage on a cone or a cylinder; `sizes` are those of `Dimensions`."""
+    """Return the template of a linkage on a cone or a cylinder; `sizes` are those of `TemplateSizes`."""
     cone = None if cone_angle is None else Cone(cone_angle)
     placed = linkage_on_a_surface(linkage, surface=cone, number=number)
-    return template_on_surface(placed, surface_of(placed, radius), Dimensions(**_stated(sizes)), name)
+    return template_on_surface(placed, surface_of(placed, radius), TemplateSizes(**_stated(sizes)), name)
 
 
 def template_of_panels(

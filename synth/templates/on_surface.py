@@ -13,7 +13,7 @@ import numpy.typing as npt
 import shapely
 
 from graphs.errors import InvariantError, UnsolvableError, numbered, shown
-from graphs.files.solids.meshes import Mesh
+from graphs.files.solids.meshes import SolidMesh
 from graphs.mechanism.surfaces import Cone, Cylinder, Surface
 from graphs.printing import plain
 from graphs.tolerances import DOUBLE
@@ -40,7 +40,7 @@ _LONGEST_NAME = 16
 
 
 @dataclass(frozen=True)
-class Dimensions:
+class TemplateSizes:
     """Dimensions of a linkage on a surface, millimetres; InvariantError unless all are positive.
 
     `size` is the length of the ruling lines (from the apex of a cone), `tab` the width of tabs. Layers are three
@@ -127,7 +127,7 @@ class LayeredLinkage:
     of the links has one joint only.
     """
 
-    def __init__(self, linkage: OnSurface, surface: Surface, dimensions: Dimensions) -> None:
+    def __init__(self, linkage: OnSurface, surface: Surface, dimensions: TemplateSizes) -> None:
         self.surface, self.dimensions = surface, dimensions
         chain = ConformedChain.of(linkage.chain)
         places = np.remainder(np.asarray(linkage.places, dtype=float), 2 * pi)
@@ -348,14 +348,14 @@ def surface_of(linkage: OnSurface, radius: float | None = None) -> Surface:
 
 
 def template_on_surface(
-    linkage: OnSurface, surface: Surface, dimensions: Dimensions | None = None, title: str = ""
+    linkage: OnSurface, surface: Surface, dimensions: TemplateSizes | None = None, title: str = ""
 ) -> Template:
     """Return the template of a linkage on a cone or a cylinder: a piece for the surface, and one for each link.
 
     All pieces are seen from outside; the arcs of their edges are chords that miss them by 0.004 mm at most.
     Raise UnsolvableError if two joints are on one ruling line, or a link has one joint only.
     """
-    links = LayeredLinkage(linkage, surface, dimensions or Dimensions())
+    links = LayeredLinkage(linkage, surface, dimensions or TemplateSizes())
     picture = _picture(linkage, surface)
     below = "It then looks as below; the picture puts layers beside each other, so that none hides another."
     steps = [*_steps(links), below]
@@ -407,7 +407,7 @@ _STEP = np.radians(3.0)
 """Azimuth of a facet, at most."""
 
 
-def solids_on_surface(linkage: LayeredLinkage, gap: float) -> list[Mesh]:
+def solids_on_surface(linkage: LayeredLinkage, gap: float) -> list[SolidMesh]:
     """Return the surface and each link as a closed shell of the material's thickness.
 
     `gap` is that between a link that ends at a joint and its neighbour, at the inner edge, millimetres. Raise
@@ -420,7 +420,7 @@ def solids_on_surface(linkage: LayeredLinkage, gap: float) -> list[Mesh]:
     return [surface, *(_link(linkage, link, off) for link in linkage.links)]
 
 
-def _link(linkage: LayeredLinkage, link: LayeredLink, off: float) -> Mesh:
+def _link(linkage: LayeredLinkage, link: LayeredLink, off: float) -> SolidMesh:
     """Return a link, as cells of azimuth and length of which those in slots are left out."""
     if link.width <= 2 * off:
         raise UnsolvableError(
@@ -452,7 +452,7 @@ def _shell(
     there: npt.NDArray[np.bool_],
     *,
     closed: bool,
-) -> Mesh:
+) -> SolidMesh:
     """Return the closed mesh of the cells that are there, about the middle of a layer.
 
     `there` is bool[columns, rows], `lengths` float[rows + 1], `azimuths` float[columns + 1] (float[columns] if
@@ -484,4 +484,4 @@ def _shell(
                 quads.append([at(0, *b), at(0, *a), at(1, *a), at(1, *b)])
     triangles = np.array([triangle for a, b, c, d in quads for triangle in ((a, b, c), (a, c, d))])
     used, renumbered = np.unique(triangles, return_inverse=True)
-    return Mesh(name, corners[used], renumbered.reshape(-1, 3))
+    return SolidMesh(name, corners[used], renumbered.reshape(-1, 3))

@@ -10,7 +10,7 @@ import shapely
 from graphs.errors import InvariantError, UnsolvableError, numbered
 from graphs.files.outputs import Lost, check_writable, write_as
 from graphs.files.solids.gltf import gltf_text
-from graphs.files.solids.meshes import Mesh, obj_of_meshes, stl_bytes, three_mf_bytes
+from graphs.files.solids.meshes import SolidMesh, obj_of_meshes, stl_bytes, three_mf_bytes
 from graphs.geometry import rigid_motion
 from graphs.mechanism.precision import in_space
 from graphs.mechanism.sheet import FLAT, Sheet, with_all_edges
@@ -20,7 +20,7 @@ from graphs.types import Floats
 from synth.conformed.linkages import OnSurface
 from synth.exporters import EXPORTERS
 from synth.moving.motion import FilePoses, poses_of_file
-from synth.templates.on_surface import Dimensions, LayeredLinkage, solids_on_surface
+from synth.templates.on_surface import LayeredLinkage, TemplateSizes, solids_on_surface
 from synth.templates.pieces import GRID, united
 from synth.templates.template import FITTED, GREATEST, LEAST, millimetres, scale_of, unit_of
 from synth.templates.unfolding import Panels, Plane
@@ -31,7 +31,7 @@ _STRAIGHT = 1e-6
 """Corners this close to a straight line, in millimetres, are left out."""
 
 
-class Plates:
+class SheetPlates:
     """The panels of a sheet with all edges listed as plates of a thickness, with a gap at each hinge.
 
     Each is in the frame of its plane at the places, float[vertices, 3], from which they are made; all in
@@ -47,7 +47,7 @@ class Plates:
         if not 0 <= gap <= GREATEST:
             raise InvariantError("gap", f"gap {gap!r}", f"a number from 0 to {GREATEST:g}")
         panels = Panels(sheet, places)
-        self.planes, self.meshes, self.faces = panels.planes, list[Mesh](), list[int]()
+        self.planes, self.meshes, self.faces = panels.planes, list[SolidMesh](), list[int]()
         for face in range(len(sheet.faces)):
             for number, polygon in enumerate(_without_hinges(panels, face, gap / 2)):
                 name = f"panel {face}" + (f" part {number}" if number else "")
@@ -69,11 +69,11 @@ class Plates:
         return turns, shifts
 
 
-def plates_in_space(plates: Plates) -> list[Mesh]:
+def plates_in_space(plates: SheetPlates) -> list[SolidMesh]:
     """Return plates where their panels stand."""
     placed = zip(plates.meshes, plates.faces, strict=True)
     return [
-        Mesh(mesh.name, mesh.corners @ plates.planes[face].axes.T + plates.planes[face].origin, mesh.triangles)
+        SolidMesh(mesh.name, mesh.corners @ plates.planes[face].axes.T + plates.planes[face].origin, mesh.triangles)
         for mesh, face in placed
     ]
 
@@ -98,12 +98,12 @@ def _without_hinges(panels: Panels, face: int, width: float) -> list[Any]:
     return parts
 
 
-def plate_of(corners: Floats, thickness: float, name: str) -> Mesh:
+def plate_of(corners: Floats, thickness: float, name: str) -> SolidMesh:
     """Return a plate about the plane of a polygon with corners float[n, 2]."""
     return pierced_plate(shapely.Polygon(corners), thickness, name)
 
 
-def pierced_plate(polygon: Any, thickness: float, name: str) -> Mesh:
+def pierced_plate(polygon: Any, thickness: float, name: str) -> SolidMesh:
     """Return a plate about the plane of a polygon, which may have holes."""
     around = shapely.orient_polygons(polygon)
     rings = [np.array(ring.coords)[:-1] for ring in (around.exterior, *around.interiors)]  # these go the other way
@@ -123,7 +123,7 @@ def pierced_plate(polygon: Any, thickness: float, name: str) -> Mesh:
             triangles += [[here, after, after + count], [here, after + count, here + count]]
         first += len(ring)
     heights = np.repeat([-thickness / 2, thickness / 2], count)
-    return Mesh(name, np.column_stack([np.tile(corners, (2, 1)), heights]), np.array(triangles))
+    return SolidMesh(name, np.column_stack([np.tile(corners, (2, 1)), heights]), np.array(triangles))
 
 
 def _frame(corners: Floats, plane: Plane, where: str) -> tuple[Floats, Floats]:
@@ -142,7 +142,7 @@ class Solids(NamedTuple):
     A motion is (float[poses, meshes, 3, 3], float[poses, meshes, 3]), how meshes rotate and translate.
     """
 
-    meshes: Sequence[Mesh]
+    meshes: Sequence[SolidMesh]
     title: str = ""
     motion: tuple[Floats, Floats] | None = None
     frames_left_out: int = 0
@@ -247,7 +247,7 @@ def write_solids(
     if scale is None and size is None:
         size = fitted_size(sheet)
     poses = poses * millimetres(poses[of_file.resting], scale_of(sheet, scale, size), size)
-    plates = Plates(whole, poses[of_file.resting], thickness=thickness, gap=2 * thickness if gap is None else gap)
+    plates = SheetPlates(whole, poses[of_file.resting], thickness=thickness, gap=2 * thickness if gap is None else gap)
     if Path(path).suffix.lower() == ".gltf":
         solids = Solids(plates.meshes, whole.title, plates.motions(whole, poses), of_file.left_out)
     else:
@@ -296,12 +296,18 @@ def write_shapes(solids: HingedSolids, path: str | Path, *, force: bool = False)
     """
     if not solids.shapes:
         raise UnsolvableError("solids require panels or shapes of links, and these hinged solids have axes only")
-    meshes = [Mesh(shape.name, np.array(shape.corners), np.array(shape.triangles)) for shape in solids.shapes]
+    meshes = [SolidMesh(shape.name, np.array(shape.corners), np.array(shape.triangles)) for shape in solids.shapes]
     return write_as(Solids(meshes, "hinged solids"), path, EXPORTERS["solids"], force=force)
 
 
 def write_linkage_on_surface(
-    linkage: OnSurface, surface: Surface, path: str | Path, *, dimensions: Dimensions, gap: float, force: bool = False
+    linkage: OnSurface,
+    surface: Surface,
+    path: str | Path,
+    *,
+    dimensions: TemplateSizes,
+    gap: float,
+    force: bool = False,
 ) -> tuple[str, ...]:
     """Write a linkage on a cone or a cylinder as solids in layers; return what the file does not hold.
 

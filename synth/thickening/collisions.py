@@ -260,7 +260,7 @@ def _ratios(frames: Floats) -> Floats | None:
 
 
 @dataclass(frozen=True)
-class Meeting:
+class FirstContact:
     """Where on a motion the first two solids meet.
 
     Attributes
@@ -334,7 +334,7 @@ class MovingPieces:
         apart = across - np.take_along_axis(shifts, first[:, None, None].repeat(3, axis=2), axis=1)[:, 0]
         return turns @ every[rows, second], (turns @ apart[..., None])[..., 0]
 
-    def first_meeting(self) -> Meeting:
+    def first_meeting(self) -> FirstContact:
         """Return the first place at which two solids meet, to a millionth of a radian; the end if none do."""
         first, panels = self.course.end, None
         for body in range(self.bodies):
@@ -342,7 +342,7 @@ class MovingPieces:
             if other is not None:
                 first, panels = place, (body, other)
         angle = float(np.abs(self.course.at(np.array([first]))).max(initial=0.0))
-        return Meeting(first, angle, panels)
+        return FirstContact(first, angle, panels)
 
     def overlaps(self, places: Floats) -> Floats:
         """Return the volume that bodies have in common at places, float[Q]."""

@@ -23,7 +23,7 @@ from shapely.ops import substring
 
 from graphs.convert.duality import SheetMechanism
 from graphs.errors import UnsolvableError
-from graphs.files.solids.meshes import Mesh
+from graphs.files.solids.meshes import SolidMesh
 from graphs.geometry import unit
 from graphs.mechanism.precision import in_space
 from graphs.mechanism.sheet import Sheet
@@ -80,7 +80,7 @@ class Plates(ABC):
 
     @property
     @abstractmethod
-    def meshes(self) -> tuple[Mesh, ...]:
+    def meshes(self) -> tuple[SolidMesh, ...]:
         """The solids, millimetres."""
 
     @property
@@ -106,10 +106,10 @@ class Plates(ABC):
     def sections(self, panel: int) -> list[tuple[float, float, Any]]:
         """Return the outlines of a panel between heights, from below: float, float, shapely geometry."""
 
-    def placed(self, rotations: Floats, shifts: Floats) -> list[Mesh]:
+    def placed(self, rotations: Floats, shifts: Floats) -> list[SolidMesh]:
         """Return the solids where panels, rotated by float[P, 3, 3], then translated by float[P, 3], are."""
         return [
-            Mesh(mesh.name, mesh.corners @ rotations[panel].T + shifts[panel], mesh.triangles)
+            SolidMesh(mesh.name, mesh.corners @ rotations[panel].T + shifts[panel], mesh.triangles)
             for mesh, panel in zip(self.meshes, self.panels, strict=True)
         ]
 
@@ -137,7 +137,7 @@ class ThickPlates(Plates):
     cut: Mapping[int, float]
 
     @cached_property
-    def meshes(self) -> tuple[Mesh, ...]:
+    def meshes(self) -> tuple[SolidMesh, ...]:
         """The solids, millimetres."""
         return tuple(_prism(part, ply, name) for part, ply, name in self._parts())
 
@@ -532,6 +532,6 @@ def _convex(polygon: Any) -> bool:
     return bool(polygon.convex_hull.area - polygon.area <= DOUBLE.same_point * polygon.area)
 
 
-def _prism(polygon: Any, ply: Ply, name: str) -> Mesh:
+def _prism(polygon: Any, ply: Ply, name: str) -> SolidMesh:
     plate = pierced_plate(polygon, ply.high - ply.low, name)
-    return Mesh(name, plate.corners + np.array([0.0, 0.0, (ply.low + ply.high) / 2]), plate.triangles)
+    return SolidMesh(name, plate.corners + np.array([0.0, 0.0, (ply.low + ply.high) / 2]), plate.triangles)

@@ -20,7 +20,7 @@ import scipy.spatial
 import shapely
 
 from graphs.errors import InvariantError, UnsolvableError
-from graphs.files.solids.meshes import Mesh
+from graphs.files.solids.meshes import SolidMesh
 from graphs.mechanism.precision import in_space
 from graphs.tolerances import DOUBLE
 from graphs.types import Floats, Ints
@@ -126,7 +126,7 @@ class TaperedPlates(Plates):
         return max(float(corners[:, 2].max()) for _, corners in self.parts)
 
     @cached_property
-    def meshes(self) -> tuple[Mesh, ...]:
+    def meshes(self) -> tuple[SolidMesh, ...]:
         """The solids, millimetres."""
         meshes, count = [], dict[int, int]()
         for place_of, (panel, corners) in enumerate(self.parts):
@@ -140,7 +140,7 @@ class TaperedPlates(Plates):
             inward = (normals * hull.equations[:, :3]).sum(axis=1) < 0.0
             triangles[inward] = triangles[inward][:, ::-1]
             name = f"panel {panel}" + (f" part {number}" if number else "")
-            solid = Mesh(name, corners[hull.vertices], place[triangles])
+            solid = SolidMesh(name, corners[hull.vertices], place[triangles])
             rings = [ring for part, ring in self.bores if part == place_of]
             meshes.append(_pierced(solid, rings, self.thinnest) if rings else solid)
         return tuple(meshes)
@@ -174,7 +174,7 @@ class TaperedPlates(Plates):
         ]  # fmt: skip
 
 
-def _pierced(solid: Mesh, rings: Sequence[Sequence[tuple[float, float]]], half: float) -> Mesh:
+def _pierced(solid: SolidMesh, rings: Sequence[Sequence[tuple[float, float]]], half: float) -> SolidMesh:
     """Return a convex solid with upright bores from its underside to its upper side."""
     corners = solid.corners.tolist()
     triangles: list[list[int]] = []
@@ -200,7 +200,7 @@ def _pierced(solid: Mesh, rings: Sequence[Sequence[tuple[float, float]]], half: 
     for bore in rings:
         for here, after in zip(bore, [*bore[1:], bore[0]], strict=True):
             triangles += [[low[after], low[here], high[here]], [low[after], high[here], high[after]]]
-    return Mesh(solid.name, np.array(corners), np.array(triangles))
+    return SolidMesh(solid.name, np.array(corners), np.array(triangles))
 
 
 def _directed(triangles: Ints) -> set[tuple[int, int]]:

@@ -44,7 +44,7 @@ from synth.motion.tangent import TangentSpace
 from synth.moving.made import configuration_of
 from synth.templates.solids import Solids
 from synth.templates.template import GREATEST, Template
-from synth.thickening.collisions import FoldCourse, Meeting, MovingPieces, body_poses
+from synth.thickening.collisions import FirstContact, FoldCourse, MovingPieces, body_poses
 from synth.thickening.fittings import HINGES, Bores, bored, bores_of, drilled, parts_of
 from synth.thickening.heights import HingeHeights, hinge_heights, needs_motion, thick_vertices
 from synth.thickening.plates import Plates, ThickPlates, cut_back, hinge_lines, thick_plates
@@ -92,7 +92,7 @@ class Collisions:
 
     Attributes
     ----------
-    meeting : Meeting
+    meeting : FirstContact
         The first place at which solids meet, swept: no configuration is left out.
     overlaps : float[F]
         The volume that solids have in common in each frame, cubic millimetres.
@@ -107,7 +107,7 @@ class Collisions:
     (None, 0.0)
     """
 
-    meeting: Meeting
+    meeting: FirstContact
     overlaps: Floats
     clearance: float
 

@@ -4,8 +4,8 @@ Theory: docs/theory/verdict.md.
 """
 
 from collections import Counter
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field, fields, replace
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from typing import Any
 
 import networkx as nx
@@ -14,12 +14,16 @@ import numpy as np
 from graphs.answer.mechanisms import mobility as counted, sheet_in_frame
 from graphs.answer.report import RODS_ALONE, MobilityAnswer
 from graphs.convert.table import Mechanism
+from graphs.count.applicability import EquationResult
 from graphs.errors import SynthedraError, UnsolvableError
 from graphs.files.accepted import MechanismLike, mechanism_for
 from graphs.mechanism.precision import BY_DIGITS, ESTIMATED
-from graphs.mechanism.sheet import Sheet
-from graphs.printing import Block
+from graphs.mechanism.sc import Arrangement
+from graphs.mechanism.sheet import Reading, Sheet
+from graphs.printing import Block, Printed, html_of
 from graphs.rank.dissection import number_below
+from graphs.rank.exact import ExactMobility
+from graphs.rank.pose import PoseMobility
 from graphs.tolerances import DOUBLE
 from graphs.types import Floats, Ints, JointId
 from synth.folding.configuration import SheetConfiguration
@@ -84,7 +88,7 @@ def verdict_of_motion(configuration: Configuration, generic: int | None = None) 
     size = configuration.precision.size
     searched = None if moves else configuration.searched
     within = WithinPrecision(verdict.freedoms, verdict.certainty, misfit if moves else None, size, searched)
-    return replace(verdict, within_precision=within, places=configuration.ends_of(verdict.stiff_joints))
+    return replace(verdict, within_precision=within, places=configuration.ends_of(verdict.immobile_joints))
 
 
 def _worded(findings: MotionFindings, basis: Basis, *, exhaustive: bool = False, further: int | None = None) -> Verdict:
@@ -128,10 +132,10 @@ def _of_one_motion(configuration: Configuration, generic: int | None) -> Verdict
     least, most = bounds.stated
     freedoms = most if least == most else None
     turning = set(moving.tolist())
-    still = tuple(joint for place, joint in enumerate(joints) if place not in turning)
+    unmoved = tuple(joint for place, joint in enumerate(joints) if place not in turning)
     from_folded = None if begun.folded is None else (begun.folded.found_at, begun.folded.back_to)
-    branch = MotionBranch(signs_of(rates), freedoms, "numerical", still, far, misfit, from_folded)
-    immobile = still if freedoms == 1 and not configuration.flat else ()
+    branch = MotionBranch(signs_of(rates), freedoms, "numerical", unmoved, far, misfit, from_folded)
+    immobile = unmoved if freedoms == 1 and not configuration.flat else ()
     marked = _as_marked(configuration.marks, rates)
     count = _counted_by_modes(configuration, bounds)
     known = count is not None and not count.at_least
@@ -257,9 +261,9 @@ def _of_branches(configuration: Configuration, search: Branches, generic: int | 
     freedoms, certainty = _unmoved(configuration, search) if stated is None else (stated.freedoms, stated.certainty)
     immobile: tuple[JointId, ...] = ()
     if known and (branches or freedoms is not None):
-        still = _immobile_on_all(configuration, search) if own else set(configuration.joints)
-        still = still.intersection(*(branch.stiff_joints for branch in elsewhere))
-        immobile = tuple(joint for joint in configuration.joints if joint in still)
+        on_all = _immobile_on_all(configuration, search) if own else set(configuration.joints)
+        on_all = on_all.intersection(*(branch.immobile_joints for branch in elsewhere))
+        immobile = tuple(joint for joint in configuration.joints if joint in on_all)
     written = _as_written(configuration)
     counted = search.complete or not search.at_least
     bounds = None if counted or stated is None else _bounds_of_search(configuration, kinds, stated)
@@ -284,13 +288,13 @@ def _immobile_on_all(configuration: Configuration, search: Branches) -> set[Join
     """Return the joints that are immobile on every branch, also of those that are not listed."""
     if not search.parts:
         branches = [branch for branch in search.branches if branch.begun or configuration.more]
-        each = [_still(branch, configuration.linkage.angles) for branch in branches]
+        each = [_immobile_places(branch, configuration.linkage.angles) for branch in branches]
         return {configuration.joints[place] for place in set(range(len(configuration.joints))).intersection(*each)}
     immobile = set[JointId]()
     for part in search.parts:
-        each = [_still(branch, part.linkage.angles) for branch in part.choices]
-        still = set(range(len(part.joints))).intersection(*each)
-        immobile |= {configuration.joints[part.joints[place]] for place in still}
+        each = [_immobile_places(branch, part.linkage.angles) for branch in part.choices]
+        on_all = set(range(len(part.joints))).intersection(*each)
+        immobile |= {configuration.joints[part.joints[place]] for place in on_all}
     return immobile
 
 
@@ -334,16 +338,16 @@ def _branches_of(configuration: Configuration, branches: Branches) -> tuple[Moti
     return tuple(_branch(configuration, branch) for branch in followed)
 
 
-def _still(branch: Branch, angles: Floats) -> list[int]:
+def _immobile_places(branch: Branch, angles: Floats) -> list[int]:
     """Return the places of the joints that have not moved where a branch was followed to."""
     apart = np.abs(branch.sample - angles) > DOUBLE.immobile
-    return [place for place in branch.still if not apart[place]]
+    return [place for place in branch.immobile if not apart[place]]
 
 
 def _branch(configuration: Configuration, branch: Branch) -> MotionBranch:
-    still = tuple(configuration.joints[place] for place in _still(branch, configuration.linkage.angles))
+    immobile = tuple(configuration.joints[place] for place in _immobile_places(branch, configuration.linkage.angles))
     freedoms, certainty, misfit = branch.freedoms, branch.certainty, configuration.misfit
-    return MotionBranch(branch.signs, freedoms, certainty, still, branch.followed, misfit)
+    return MotionBranch(branch.signs, freedoms, certainty, immobile, branch.followed, misfit)
 
 
 def _stated(configuration: Configuration, branches: Sequence[MotionBranch], chosen: int | None) -> MotionBranch | None:
@@ -403,29 +407,109 @@ def on_request(sheet: Sheet) -> str:
 
 
 @dataclass(frozen=True, slots=True, repr=False)
-class JudgedMobility(MobilityAnswer):
-    """The mobility of one mechanism, its verdict first; other attributes are those of `MobilityAnswer`.
+class JudgedMobility(Printed):
+    """The verdict on one mechanism with the report that supports it. It prints as ``synth mobility`` does.
 
     Attributes
     ----------
     verdict : Verdict
+    report : MobilityAnswer
+        Ranks and counts; its values are attributes here too: `mechanism_class`, `links`, `joints`, `loops`,
+        `centres`, `mobility`, `equations`, `counts`, `repairs`, `warnings`, `arrangement`, `exact`, `pose`,
+        `reading`, `overconstraint`.
     configuration : Configuration or None
         Where it moves from; None for a type, and where its motion was not looked for.
     flat_folding : FlatFoldability or None
         Whether a flat pattern folds flat, panels bending on the way; None for others, and for large ones.
     """
 
-    verdict: Verdict = field(kw_only=True)
+    verdict: Verdict
+    report: MobilityAnswer
     configuration: Configuration | None = None
     flat_folding: FlatFoldability | None = None
 
     @property
-    def stated_overconstraint(self) -> int | None:
-        """H at this configuration; None where the verdict states that of its motion, which is another."""
-        freedoms, here = self.verdict.freedoms, self.overconstraint
-        if self.verdict.basis != "motion" or freedoms is None or self.mobility is None or freedoms <= self.mobility:
-            return here
-        return here if freedoms - self.mobility == here else None
+    def mechanism_class(self) -> str:
+        """The class by Wiener's Fig. 37."""
+        return self.report.mechanism_class
+
+    @property
+    def links(self) -> int | None:
+        """N."""
+        return self.report.links
+
+    @property
+    def joints(self) -> int | None:
+        """J."""
+        return self.report.joints
+
+    @property
+    def loops(self) -> int | None:
+        """L, independent loops."""
+        return self.report.loops
+
+    @property
+    def centres(self) -> int:
+        """Distinct centres."""
+        return self.report.centres
+
+    @property
+    def mobility(self) -> int | None:
+        """Generic mobility M by count."""
+        return self.report.mobility
+
+    @property
+    def equations(self) -> Mapping[str, EquationResult]:
+        """The equations of mobility, by name."""
+        return self.report.equations
+
+    @property
+    def counts(self) -> Mapping[str, int]:
+        """Further counts, by name."""
+        return self.report.counts
+
+    @property
+    def repairs(self) -> tuple[str, ...]:
+        """What was repaired when the mechanism was read."""
+        return self.report.repairs
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """Notes on the evidence."""
+        return self.report.warnings
+
+    @property
+    def arrangement(self) -> Arrangement | None:
+        """How the centres are arranged."""
+        return self.report.arrangement
+
+    @property
+    def exact(self) -> ExactMobility | None:
+        """The generic mobility by rank."""
+        return self.report.exact
+
+    @property
+    def pose(self) -> PoseMobility | None:
+        """The infinitesimal degrees of freedom at the coordinates."""
+        return self.report.pose
+
+    @property
+    def reading(self) -> Reading | None:
+        """What was done to a drawing when it was read."""
+        return self.report.reading
+
+    @property
+    def overconstraint(self) -> int | None:
+        """H = degrees of freedom at the configuration - M."""
+        return self.report.overconstraint
+
+    @property
+    def _states_another_h(self) -> bool:
+        """Whether the verdict states h of its motion, which is not that at this configuration."""
+        freedoms, mobility = self.verdict.freedoms, self.mobility
+        if self.verdict.basis != "motion" or freedoms is None or mobility is None or freedoms <= mobility:
+            return False
+        return freedoms - mobility != self.overconstraint
 
     @property
     def herve(self) -> HerveClass | None:
@@ -446,7 +530,7 @@ class JudgedMobility(MobilityAnswer):
             "flat_folding": None if self.flat_folding is None else self.flat_folding.to_json(),
         }
         last = {**mended, "herve": None if herve is None else herve.to_json()}
-        return {**first, **super(JudgedMobility, self).to_json(), **last}
+        return {**first, **self.report.to_json(), **last}
 
     def _precision(self) -> list[Block]:
         """Return the line on the precision of coordinates that are not exact, or are so by their digits alone."""
@@ -472,7 +556,11 @@ class JudgedMobility(MobilityAnswer):
         repaired: list[Block] = [f"repaired: {note}" for note in self.mended]
         herve = self.herve
         told: list[Block] = [] if herve is None else [str(herve)]
-        return [*self.unread(), *lines, *self.evidence(verbose=verbose), *told, *self._precision(), *repaired]
+        evidence = self.report.evidence(verbose=verbose, with_h=not self._states_another_h)
+        return [*self.report.unread(), *lines, *evidence, *told, *self._precision(), *repaired]
+
+    def _repr_html_(self) -> str:
+        return html_of(self.blocks(verbose=True))
 
     def __repr__(self) -> str:
         return f"<JudgedMobility: {self.verdict.summary}>"
@@ -592,5 +680,4 @@ def _configuration(
 
 
 def _judged(answer: MobilityAnswer, verdict: Verdict, at: Configuration | None = None) -> JudgedMobility:
-    parts = {part.name: getattr(answer, part.name) for part in fields(MobilityAnswer)}
-    return JudgedMobility(**parts, verdict=verdict, configuration=at)
+    return JudgedMobility(verdict, answer, at)

@@ -14,6 +14,7 @@ import networkx as nx
 
 from graphs.errors import numbered
 from graphs.mechanism.sc import SCGraph
+from graphs.plain_data import fields_to_json
 from graphs.tolerances import DOUBLE
 from graphs.types import JointId, LinkId
 from synth.motion.configuration import Configuration, at_most, listed
@@ -33,7 +34,7 @@ class MotionBranch:
         How each joint begins: ``+`` valley, ``-`` mountain, ``0`` not at all.
     freedoms : int or None
     certainty : {"proved", "numerical", "not known"}
-    stiff_joints : tuple of joint ids
+    immobile_joints : tuple of joint ids
         Joints that are immobile on it.
     followed : float
         How far the joint that moves most was followed, radians.
@@ -48,22 +49,19 @@ class MotionBranch:
     signs: str
     freedoms: int | None
     certainty: Certainty
-    stiff_joints: tuple[JointId, ...]
+    immobile_joints: tuple[JointId, ...]
     followed: float
     misfit: float | None = None
     from_folded: tuple[float, float] | None = None
 
     def to_json(self) -> dict[str, Any]:
         """Return plain data."""
-        return {
-            "signs": self.signs,
-            "freedoms": self.freedoms,
-            "certainty": self.certainty,
-            "stiff_joints": list(self.stiff_joints),
-            "followed_deg": degrees(self.followed),
-            "misfit": self.misfit,
-            "from_folded_deg": None if self.from_folded is None else list(map(degrees, self.from_folded)),
-        }
+        return fields_to_json(
+            self,
+            keys={"followed": "followed_deg", "from_folded": "from_folded_deg"},
+            followed=degrees(self.followed),
+            from_folded=None if self.from_folded is None else tuple(map(degrees, self.from_folded)),
+        )
 
 
 @dataclass(frozen=True, slots=True)
@@ -179,7 +177,7 @@ class Verdict:
         Motion branches, where they were looked for; those that the search had nothing left to follow are left out.
     exhaustive : bool
         Whether there are no other branches.
-    stiff_joints : tuple of joint ids
+    immobile_joints : tuple of joint ids
         Joints that are immobile on every branch.
     clusters : tuple of tuple of link ids
         Links that move as one on every branch, where they are several.
@@ -212,7 +210,7 @@ class Verdict:
     text: str
     branches: tuple[MotionBranch, ...] = ()
     exhaustive: bool = False
-    stiff_joints: tuple[JointId, ...] = ()
+    immobile_joints: tuple[JointId, ...] = ()
     clusters: tuple[tuple[LinkId, ...], ...] = ()
     places: dict[JointId, tuple[tuple[float, ...], tuple[float, ...]]] = field(default_factory=dict)
     as_written: AsWritten | None = None
@@ -233,8 +231,8 @@ class Verdict:
             **self._count_to_json(),
             "not_followed": self.further,
             "bounds": None if self.bounds is None else self.bounds.to_json(),
-            "stiff_joints": list(self.stiff_joints),
-            "stiff_places": places,
+            "immobile_joints": list(self.immobile_joints),
+            "immobile_places": places,
             "clusters": [list(cluster) for cluster in self.clusters],
             "as_written": None if self.as_written is None else asdict(self.as_written),
             "within_precision": None if self.within_precision is None else asdict(self.within_precision),
@@ -263,10 +261,10 @@ class Verdict:
         return f"<Verdict: {self.summary}>"
 
 
-def clusters_of(graph: SCGraph, still: Sequence[JointId]) -> tuple[tuple[LinkId, ...], ...]:
+def clusters_of(graph: SCGraph, immobile: Sequence[JointId]) -> tuple[tuple[LinkId, ...], ...]:
     """Return links that immobile joints make one, in the order of the graph."""
     together = nx.Graph()
-    together.add_edges_from(graph.joints[joint] for joint in still)
+    together.add_edges_from(graph.joints[joint] for joint in immobile)
     order = {link: place for place, link in enumerate(graph)}
     clusters = [tuple(sorted(links, key=order.__getitem__)) for links in nx.connected_components(together)]
     return tuple(sorted(clusters, key=lambda links: order[links[0]]))

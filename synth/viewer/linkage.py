@@ -8,7 +8,7 @@ docs/theory/centre-classes.md.
 
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass, fields, is_dataclass
+from dataclasses import asdict, dataclass
 from itertools import chain as chained, pairwise
 from math import ceil
 from typing import Any, Literal
@@ -26,6 +26,7 @@ from graphs.mechanism.precision import in_space
 from graphs.mechanism.sheet import Sheet, sides_of_face
 from graphs.mechanism.solids import HingedSolids
 from graphs.mechanism.surfaces import Cylinder, Surface
+from graphs.plain_data import plain_data
 from graphs.tolerances import DOUBLE, EPSILON, Tolerances
 from graphs.types import Floats, Ints, LinkId
 from synth.conformed.behaviours import link_arcs
@@ -50,20 +51,6 @@ _AXIS, _BODY = "-", "|"
 """Letters of lines that are not edges of a crease pattern: pieces of axes, sides of bodies."""
 
 
-def page_data(value: Any) -> Any:
-    """Return plain data of web/src/page/types.js: records by the names of their fields, arrays as lists.
-
-    A record with data of its own has `to_json`.
-    """
-    if hasattr(value, "to_json"):
-        return value.to_json()
-    if is_dataclass(value):
-        return {field.name: page_data(getattr(value, field.name)) for field in fields(value)}
-    if isinstance(value, np.ndarray):
-        return value.tolist()
-    return list(map(page_data, value)) if isinstance(value, tuple | list) else value
-
-
 @dataclass(frozen=True, slots=True)
 class Bodies:
     """Corners, float[V, 3], faces and lines at the configuration, in units of the extent, about the middle.
@@ -86,7 +73,7 @@ class Bodies:
             "owners": self.owners,
             "faces": [{"link": link, "vertices": around} for link, around in self.faces],
             "edges": [{"ends": [a, b], "letter": letter, "joint": joint} for a, b, letter, joint in self.edges],
-            "surface": page_data(self.surface),
+            "surface": plain_data(self.surface),
         }
 
 

@@ -17,6 +17,7 @@ from graphs.mechanism.precision import lies_flat
 from graphs.mechanism.sheet import Sheet, with_all_edges
 from graphs.mechanism.solids import HingedSolids
 from graphs.mechanism.surfaces import SurfaceLinkage
+from graphs.plain_data import fields_to_json, plain_data
 from graphs.printing import plain
 from graphs.tolerances import DOUBLE, leading
 from graphs.types import Floats, Ints
@@ -45,7 +46,6 @@ from synth.viewer.linkage import (
     bodies_of_sheet,
     bodies_on_surface,
     centres_of,
-    page_data,
     solver_data,
 )
 
@@ -73,25 +73,19 @@ class Beginning:
     """One start of a motion, with the label that the page lists.
 
     `rates`, float[J], are those at the configuration, the largest 1 or -1. `drivers` are the indices of the
-    driven joints, one for each degree of freedom, the fastest first; `still` are those of the immobile joints.
+    driven joints, one for each degree of freedom, the fastest first; `immobile` are those of the immobile joints.
     `freedoms` is None if unknown.
     """
 
     label: str
     rates: Floats
     drivers: tuple[int, ...]
-    still: tuple[int, ...] = ()
+    immobile: tuple[int, ...] = ()
     freedoms: int | None = None
 
     def to_json(self) -> dict[str, Any]:
         """Return plain data: `WayData` of web/src/page/types.js."""
-        return {
-            "told": self.label,
-            "rates": self.rates.tolist(),
-            "drivers": list(self.drivers),
-            "still": list(self.still),
-            "freedoms": self.freedoms,
-        }
+        return fields_to_json(self, keys={"label": "told"})
 
 
 @dataclass(frozen=True, slots=True)
@@ -135,10 +129,10 @@ def ways_of(configuration: Configuration) -> Ways:
 def _start_of_branch(number: int, branch: Branch, rates: Floats, closure: ClosureEquations) -> Beginning:
     freedoms, first = branch.freedoms, leading(rates)
     degrees = f"{'unknown' if freedoms is None else freedoms} DOF"
-    moving = np.setdiff1d(np.arange(len(rates)), np.array(branch.still, dtype=np.int64))
+    moving = np.setdiff1d(np.arange(len(rates)), np.array(branch.immobile, dtype=np.int64))
     # rates that close to first order may be more than the degrees of freedom, which are those to second order
     drivers = (first,) if not freedoms else _driven(closure, branch.sample, moving, first)[1][:freedoms]
-    return Beginning(f"branch {number}: {degrees}, {branch.certainty}", rates, drivers, branch.still, freedoms)
+    return Beginning(f"branch {number}: {degrees}, {branch.certainty}", rates, drivers, branch.immobile, freedoms)
 
 
 def _driven(closure: ClosureEquations, angles: Floats, moving: Ints, first: int) -> tuple[int | None, tuple[int, ...]]:
@@ -171,8 +165,8 @@ class MovingLinkage:
         return {
             "solver": solver_data(self.linkage, limited=self.limited, ground=list(graph.nodes)[self.ground]),
             "bodies": self.bodies.to_json(),
-            "ways": page_data(self.ways),
-            "centres": page_data(self.centres),
+            "ways": plain_data(self.ways),
+            "centres": plain_data(self.centres),
             "joints": [plain(joint) for joint in graph.joints],
             "links": [plain(link) for link in graph.nodes],
             "between": [[number[first], number[second]] for first, second in graph.joints.values()],
@@ -214,7 +208,7 @@ class Shown:
         Where the motion starts; None without coordinates.
     answer : str
         Output of `synth mobility --json`, as text, since numbers of a page have 53 bits only.
-    stiff, clusters : tuple
+    immobile, clusters : tuple
         Ids of immobile joints, and of links that move as one.
     drawn : DrawnCreases or None
         For a crease pattern that lies in a plane.
@@ -232,7 +226,7 @@ class Shown:
     moving: MovingLinkage | None
     configuration: Configuration | None
     answer: str
-    stiff: tuple[str, ...]
+    immobile: tuple[str, ...]
     clusters: tuple[tuple[str, ...], ...]
     drawn: DrawnCreases | None = None
     on_request: bool = False
@@ -243,7 +237,7 @@ class Shown:
         at, ways = self.configuration, None if self.moving is None else self.moving.ways
         configuration = None if at is None else at.to_json(at.branch(None if ways is None else ways.taken))
         return {
-            name: configuration if name == "configuration" else page_data(getattr(self, name))
+            name: configuration if name == "configuration" else plain_data(getattr(self, name))
             for name in self.__slots__
         }
 
@@ -282,13 +276,13 @@ def shown_of(
         mechanism.frames.first_placed() if isinstance(mechanism, Sheet) and mechanism.frames is not None else mechanism
     )
     notes: list[str] = []
-    still = isinstance(placed, Sheet) and len(placed.faces) > _MOST_PANELS and not motion
+    on_request_only = isinstance(placed, Sheet) and len(placed.faces) > _MOST_PANELS and not motion
     report("finding motion branches", 1, _STEPS)
-    at, moving = _moving(placed, notes, still=still)
+    at, moving = _moving(placed, notes, searched=not on_request_only)
     report("finding the mobility", 2, _STEPS)
-    answer = mobility(placed if at is None or still else at, motion=False if still else motion)
-    if still and isinstance(placed, Sheet) and motion is None and answer.pose is not None:
-        answer = replace(answer, verdict=verdict_of_type(answer, on_request(placed)))
+    answer = mobility(placed if at is None or on_request_only else at, motion=False if on_request_only else motion)
+    if on_request_only and isinstance(placed, Sheet) and motion is None and answer.pose is not None:
+        answer = replace(answer, verdict=verdict_of_type(answer.report, on_request(placed)))
     verdict = answer.verdict
     report("drawing", 3, _STEPS)
     pictures = _pictures(_flat_pattern(mechanism) or (placed if at is None else at), notes)
@@ -305,10 +299,10 @@ def shown_of(
         moving,
         at,
         json.dumps(answer.to_json(), indent=2, allow_nan=False),
-        tuple(map(plain, verdict.stiff_joints)) if verdict.certainty != "not known" else (),
+        tuple(map(plain, verdict.immobile_joints)) if verdict.certainty != "not known" else (),
         tuple(tuple(map(plain, cluster)) for cluster in verdict.clusters),
         drawn,
-        still,
+        on_request_only,
         _flat(answer.flat_folding, at),
     )
 
@@ -321,22 +315,22 @@ def _flat(known: FlatFoldability | None, at: Configuration | None) -> ShownFlat 
 
 
 def _moving(
-    mechanism: Mechanism, notes: list[str], *, still: bool
+    mechanism: Mechanism, notes: list[str], *, searched: bool
 ) -> tuple[Configuration | None, MovingLinkage | None]:
-    """Return a mechanism at its configuration, and its motions unless it is `still`; note why there are none."""
+    """Return a mechanism at its configuration, and its motions if they are `searched`; note why there are none."""
     try:
-        at = configuration_of(mechanism, mend=not still)
+        at = configuration_of(mechanism, mend=searched)
     except SynthedraError as error:
         notes.append(f"not moved: {error}")
         return None, None
     notes += [f"repaired: {repair}" for repair in at.mended]
     ways = None
-    if at.joints and not still:
+    if at.joints and searched:
         try:
             ways = ways_of(at)
         except UnsolvableError as error:  # rigid: it is shown too
             notes.append(str(error))
-    centres = () if still else centres_of(at)
+    centres = centres_of(at) if searched else ()
     if not isinstance(at, SheetConfiguration):
         return at, MovingLinkage(at.linkage, _bodies(mechanism, at), ways, centres, ground=0, limited=at.limited)
     bodies = bodies_of_sheet(at.sheet, at.mechanism, at.linkage)

@@ -40,7 +40,7 @@ def answer_to(guise: Guise) -> Answer:
         return Answer(refused=True)
     ways: Counter[tuple[str, str]] = Counter()
     for way in verdict.branches:
-        moving = set(at.joints) - set(way.stiff_joints)
+        moving = set(at.joints) - set(way.immobile_joints)
         ways[str(way.freedoms), str(len(_lines(moving, at, guise)))] += 1
     found = at.branches
     return Answer(
@@ -50,7 +50,7 @@ def answer_to(guise: Guise) -> Answer:
         complete=found is not None and found.complete,
         ways=tuple(sorted(ways.items())),
         marked=at.marked.marked,
-        immobile=_lines(verdict.stiff_joints, at, guise),
+        immobile=_lines(verdict.immobile_joints, at, guise),
     )
 
 

@@ -83,7 +83,7 @@ def test_a_search_that_ends_early_finds_the_same():
     for _, guise in guises_of(frog_base(), ("renamed", "renamed, faces turned", "turned over")):
         linkage = configuration_of_sheet(guise.sheet).linkage
         found = branches_of(linkage, search=replace(search, towards=np.ones(len(linkage.angles))))
-        ways = ((one.begun, one.freedoms, len(one.still), len(one.space.left)) for one in found.branches)
+        ways = ((one.begun, one.freedoms, len(one.immobile), len(one.space.left)) for one in found.branches)
         seen.append((found.complete, Counter(ways)))
     assert len(seen) == 4
     assert not seen[0][0]

@@ -13,7 +13,7 @@ import numpy as np
 import numpy.typing as npt
 from scipy.spatial.transform import Rotation
 
-from graphs.files.solids.meshes import Mesh
+from graphs.files.solids.meshes import SolidMesh
 from graphs.printing import plain
 from graphs.types import Floats
 
@@ -49,7 +49,9 @@ class _Buffer:
         return len(self.accessors) - 1
 
 
-def gltf_text(meshes: Sequence[Mesh], turns: Floats, shifts: Floats, *, seconds: float = 4.0, title: str = "") -> str:
+def gltf_text(
+    meshes: Sequence[SolidMesh], turns: Floats, shifts: Floats, *, seconds: float = 4.0, title: str = ""
+) -> str:
     """Return meshes, each in its own frame, that move, as glTF text; all in millimetres.
 
     A corner c of a mesh is at turn @ c + shift, with rotation matrices float[poses, meshes, 3, 3] and shifts
@@ -85,7 +87,7 @@ def gltf_text(meshes: Sequence[Mesh], turns: Floats, shifts: Floats, *, seconds:
     return json.dumps(document, allow_nan=False, separators=(",", ":")) + "\n"
 
 
-def _mesh(mesh: Mesh, buffer: _Buffer) -> dict[str, Any]:
+def _mesh(mesh: SolidMesh, buffer: _Buffer) -> dict[str, Any]:
     corners = buffer.add(mesh.corners, "VEC3", _FLOATS, target=_CORNERS)
     indices = buffer.add(mesh.triangles.reshape(-1), "SCALAR", _INDICES, target=_TRIANGLES)
     return {"primitives": [{"attributes": {"POSITION": corners}, "indices": indices, "material": 0}]}

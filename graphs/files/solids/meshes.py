@@ -19,7 +19,7 @@ from graphs.types import Floats
 
 
 @dataclass(frozen=True)
-class Mesh:
+class SolidMesh:
     """A solid of one material: corners float[n, 3], millimetres, and triangles of them, int[m, 3].
 
     Triangles are counter-clockwise seen from outside.
@@ -33,7 +33,7 @@ class Mesh:
 _LONGEST = 100
 
 
-def obj_of_meshes(meshes: Sequence[Mesh]) -> str:
+def obj_of_meshes(meshes: Sequence[SolidMesh]) -> str:
     """Return meshes as OBJ text, in millimetres."""
     rows, before = ["# millimetres"], 1
     for mesh in meshes:
@@ -48,7 +48,7 @@ _STL_HEAD = b"binary STL, millimetres".ljust(80)
 _TRIANGLE = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 
 
-def stl_bytes(meshes: Sequence[Mesh]) -> bytes:
+def stl_bytes(meshes: Sequence[SolidMesh]) -> bytes:
     """Return meshes as one binary STL file, which does not tell them apart."""
     corners = np.concatenate([mesh.corners[mesh.triangles] for mesh in meshes])
     rows = np.zeros(len(corners), dtype=_TRIANGLE)
@@ -73,7 +73,7 @@ _FIRST_DAY = (1980, 1, 1, 0, 0, 0)
 """The date of all parts of the file: the first that ZIP has."""
 
 
-def three_mf_bytes(meshes: Sequence[Mesh]) -> bytes:
+def three_mf_bytes(meshes: Sequence[SolidMesh]) -> bytes:
     """Return meshes as a 3MF file, in millimetres."""
     objects = "".join(_object(number, mesh) for number, mesh in enumerate(meshes, start=1))
     items = "".join(f'<item objectid="{number}"/>\n' for number in range(1, len(meshes) + 1))
@@ -91,7 +91,7 @@ def three_mf_bytes(meshes: Sequence[Mesh]) -> bytes:
     return stream.getvalue()
 
 
-def _object(number: int, mesh: Mesh) -> str:
+def _object(number: int, mesh: SolidMesh) -> str:
     corners = "".join(f'<vertex x="{x:.9g}" y="{y:.9g}" z="{z:.9g}"/>\n' for x, y, z in mesh.corners.tolist())
     triangles = "".join(f'<triangle v1="{a}" v2="{b}" v3="{c}"/>\n' for a, b, c in mesh.triangles.tolist())
     return (

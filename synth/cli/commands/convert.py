@@ -273,7 +273,7 @@ def _write_solids(
 def _write_on_surface(
     linkage: SurfaceLinkage, target: str, *, force: bool, number: int | None = None, **solid: float
 ) -> tuple[str, ...]:
-    from synth.templates.on_surface import Dimensions, surface_of
+    from synth.templates.on_surface import TemplateSizes, surface_of
     from synth.templates.solids import THICKNESS, write_linkage_on_surface
     from synth.templates.template import linkage_on_a_surface
 
@@ -281,7 +281,7 @@ def _write_on_surface(
         raise click.UsageError("--scale is for panels; try --size, the length of the ruling lines")
     placed = linkage_on_a_surface(linkage, number=number)
     gap = solid.pop("gap", 2 * solid.setdefault("thickness", THICKNESS))
-    sizes = Dimensions(**solid)
+    sizes = TemplateSizes(**solid)
     return write_linkage_on_surface(placed, surface_of(placed), target, dimensions=sizes, gap=gap, force=force)
 
 

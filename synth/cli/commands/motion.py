@@ -123,7 +123,7 @@ def fold(
         rows = table("branch", "DOF", "evidence", "immobile", "signs", numbers=["branch", "DOF", "immobile"])
         for number, folding in enumerate(motion.branches.branches):
             freedoms = "?" if folding.freedoms is None else str(folding.freedoms)
-            immobile = str(len(folding.still))
+            immobile = str(len(folding.immobile))
             rows.add_row(str(number), freedoms, folding.certainty, immobile, plain(folding.signs, 4096))
         console().print(rows)
     click.echo(str(motion))

@@ -55,7 +55,7 @@ COLOURINGS = ("letters", "verdict", "branch", "centres", "none")
 """Colours show the assignment; immobile creases and panels that move as one; how creases begin to fold on a
 branch; the class of centres; nothing."""
 
-Doing: TypeAlias = Literal["moves", "still", "unknown", "mountain", "valley", "later"]
+Doing: TypeAlias = Literal["moves", "immobile", "unknown", "mountain", "valley", "later"]
 """What a crease does; later: it is at rest as the motion begins, but not immobile."""
 
 _LOOKS: Mapping[str, tuple[str, tuple[float, ...]]] = {
@@ -69,7 +69,7 @@ _LOOKS: Mapping[str, tuple[str, tuple[float, ...]]] = {
 }
 _DOINGS: Mapping[Doing, tuple[str, float, tuple[float, ...]]] = {
     "moves": ("class1", 1.3, ()),
-    "still": ("grey", NORMAL, (1.0, 2.0)),
+    "immobile": ("grey", NORMAL, (1.0, 2.0)),
     "unknown": ("unassigned", NORMAL, (6.0, 1.5, 1.0, 1.5)),
     "mountain": ("mountain", 1.3, ()),
     "valley": ("valley", 1.3, (4.0, 2.0)),
@@ -327,12 +327,12 @@ def motions_by_verdict(sheet: Sheet | SheetConfiguration) -> Motions:
     """
     pattern = configuration_of(sheet)
     verdict = verdict_of_motion(pattern)
-    immobile = set() if verdict.certainty == "not known" else set(verdict.stiff_joints)
-    branches = [set(way.stiff_joints) for way in verdict.branches if way.certainty != "not known"]
+    immobile = set() if verdict.certainty == "not known" else set(verdict.immobile_joints)
+    branches = [set(way.immobile_joints) for way in verdict.branches if way.certainty != "not known"]
     of: dict[JointId, Doing] = {}
     for joint in pattern.linkage.graph.joints:
         if joint in immobile:
-            of[joint] = "still"
+            of[joint] = "immobile"
         else:
             of[joint] = "moves" if any(joint not in at_rest for at_rest in branches) else "unknown"
     clusters = verdict.clusters if immobile else ()
@@ -341,16 +341,16 @@ def motions_by_verdict(sheet: Sheet | SheetConfiguration) -> Motions:
 
 def _said_of_verdict(of: Mapping[JointId, Doing], certainty: str) -> str:
     does = list(of.values())
-    moving, still, unknown = (does.count(doing) for doing in ("moves", "still", "unknown"))
+    moving, immobile, unknown = (does.count(doing) for doing in ("moves", "immobile", "unknown"))
     if moving == len(does):
         return f"every crease moves (orange; {certainty})"
-    if still == len(does):
+    if immobile == len(does):
         return f"no crease moves (grey, dotted; {certainty}); panels of one colour move as one"
     if unknown == len(does):
         return "which creases move is not known (purple)"
     parts = [f"{numbered(moving, 'crease')} move{'s' * (moving == 1)} (orange)"] if moving else []
-    if still:
-        parts.append(f"{still} still (grey, dotted; {certainty}), panels of one colour move as one")
+    if immobile:
+        parts.append(f"{immobile} immobile (grey, dotted; {certainty}), panels of one colour move as one")
     if unknown:
         parts.append(f"of {unknown} (purple) it is not known")
     return "; ".join(parts)
@@ -367,17 +367,17 @@ def motions_on_branch(sheet: Sheet | SheetConfiguration, branch: int | str | Non
     branches = pattern.branches
     number, rates = beginning(pattern, BranchChoice(branch))
     chosen = branches.branch(number or 0) if branches is not None else None
-    immobile = set(chosen.still) if chosen is not None else set()
+    immobile = set(chosen.immobile) if chosen is not None else set()
     of: dict[JointId, Doing] = {}
     for index, (joint, rate) in enumerate(zip(pattern.linkage.graph.joints, rates / np.abs(rates).max(), strict=True)):
         if abs(rate) > DOUBLE.zero_rate:
             of[joint] = "valley" if rate > 0 else "mountain"
         else:
-            of[joint] = "still" if index in immobile else "later"
+            of[joint] = "immobile" if index in immobile else "later"
     which = "one way to move"
     if branches is not None and chosen is not None:
         which = f"way {number or 0} of {branches.count} ({_freedoms_of(chosen)}, {chosen.certainty})"
-    looks = {"mountain": "red", "valley": "blue, dashed", "later": "purple", "still": "grey, dotted"}
+    looks = {"mountain": "red", "valley": "blue, dashed", "later": "purple", "immobile": "grey, dotted"}
     legend = [f"{doing} {look}" for doing, look in looks.items() if doing in of.values()]
     return Motions(of, (), f"{which}: {', '.join(legend)}")
 
@@ -410,9 +410,9 @@ def overlay_of_marks(sheet: Sheet | SheetConfiguration, branch: int | str | None
     which = f"branch {near.number} ({_freedoms_of(chosen)})"
     if not near.size:
         return Overlay("marks", shapes, (f"all creases are marked as {which} begins",))
-    other, still = len(near.opposite), len(near.immobile)
+    other, unmoved = len(near.opposite), len(near.immobile)
     bands = [f"{other} turn{'s' * (other == 1)} the other way (yellow bands)"] if other else []
-    bands += [f"{still} {'does' if still == 1 else 'do'} not move (light blue dots)"] if still else []
+    bands += [f"{unmoved} {'is' if unmoved == 1 else 'are'} immobile (light blue dots)"] if unmoved else []
     every = numbered(int(np.count_nonzero(at.marks)), "assigned crease")
     line = f"{near.size} of {every} disagree{'s' * (near.size == 1)} with {which}: {', '.join(bands)}"
     return Overlay("marks", shapes, (line,))

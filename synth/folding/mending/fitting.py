@@ -312,7 +312,7 @@ class _Closing(GaussNewton):
     """How vertices and angles are changed until all loops close."""
 
     dear: float
-    still: float
+    least_turn: float
     held: float
     least_value: float
     least: float
@@ -327,7 +327,7 @@ _CLOSING = _Closing(
     slow=0.7,  # halving is fast enough
     patience=3,  # one or two steps may be slow where the active equations change
     dear=0.1,  # vertices are moved rather than angles changed, by the inverse: these are only to follow
-    still=0.02,  # radians: loops whose joints turn by less count so, else the flat state would divide by zero
+    least_turn=0.02,  # radians: loops whose joints turn by less count so, else the flat state would divide by zero
     held=1e-3,  # a driven joint keeps its turn to this part: configurations are to stay apart
     least_value=1e-9,  # singular values count as this at least, or a share of the residual
     least=1e-14,  # the same of large sheets, in normal equations: as a part of the largest square
@@ -349,7 +349,7 @@ class _State:
     def with_pose(self, angles: Floats, motion: _Motion) -> _State:
         """Return the state with one more configuration of a motion."""
         weights = np.ones_like(angles)
-        weights[motion.driver], weights[list(motion.still)] = _CLOSING.held, 0.0
+        weights[motion.driver], weights[list(motion.immobile)] = _CLOSING.held, 0.0
         return _State(self.shifts, np.vstack([self.poses, angles]), np.vstack([self.weights, weights]))
 
     def onwards(self, step: Floats) -> _State:
@@ -364,7 +364,7 @@ class _Motion(NamedTuple):
 
     rates: Floats
     driver: int
-    still: tuple[int, ...]
+    immobile: tuple[int, ...]
 
     def at(self, start: Floats, turn: float) -> float:
         """Return the angle of the driven joint after a turn, radians."""
@@ -433,7 +433,7 @@ class Fitting:
         """Return the state with configurations along a motion, all closed; None if the first ones do not close."""
         here, direction = self._start, motion.rates
         for number, turn in enumerate(turns):
-            closure = self._closure(state).locked(motion.still)
+            closure = self._closure(state).locked(motion.immobile)
             there = _near(closure, here, direction, motion.driver, motion.at(self._start, turn))
             tried = self._refitted(state.with_pose(there, motion), most)
             if tried is None:
@@ -455,7 +455,7 @@ class Fitting:
         closure, worst = self._closure(state), DOUBLE.closed
         most_open = None
         for motion in motions:
-            locked, here, direction = closure.locked(motion.still), self._start, motion.rates
+            locked, here, direction = closure.locked(motion.immobile), self._start, motion.rates
             for turn in _MOTIONS.followed:
                 there = _near(locked, here, direction, motion.driver, motion.at(self._start, turn))
                 error = closure.error(there)
@@ -572,7 +572,7 @@ def _sizes(jacobian: scipy.sparse.csr_matrix, turned: Floats) -> Floats:
     largest = np.zeros(len(starts))
     some = ends > starts
     largest[some] = np.maximum.reduceat(turned[jacobian.indices], starts[some])
-    return np.asarray(np.clip(largest, _CLOSING.still, 1.0) ** 2)
+    return np.asarray(np.clip(largest, _CLOSING.least_turn, 1.0) ** 2)
 
 
 def _near(closure: ClosureEquations, here: Floats, direction: Floats, driver: int, goal: float) -> Floats:

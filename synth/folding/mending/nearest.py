@@ -87,7 +87,7 @@ _WORK_NEAR = 3e8
 _HARDLY, _ERRORS = 0.02, 30.0
 """A rate may be an error that is no larger than the first, of the largest, and than this times what is zero."""
 _SLOW = 0.1
-"""Joints with smaller rates may be still where errors grew from vertex to vertex."""
+"""Joints with smaller rates may be immobile where errors grew from vertex to vertex."""
 _BESIDE = 3
 """Further motions along a branch with several freedoms, at most."""
 
@@ -106,7 +106,7 @@ class NearBranch:
 
     @property
     def begun(self) -> list[list[Floats]]:
-        """Rates of the motions: with joints still that hardly move, as they are, and with slow joints still."""
+        """Rates of the motions: with joints immobile that hardly move, as they are, and with slow joints immobile."""
         largest = np.abs(self.motions).max(axis=0)
         beginnings = [list(self.motions)]
         for place, small in ((0, self.small), (2, _SLOW)):
@@ -390,8 +390,8 @@ class _Search(_PatternSearch):
             return False
         begun = space.basis @ (space.basis.T @ self.near[number].motions[-1])
         rates = begun / np.abs(begun).max()
-        still = tuple(np.flatnonzero(np.abs(space.basis).max(axis=1) <= DOUBLE.zero_rate).tolist())
-        end, freedoms = followed(linkage, closure, rates, still), self.near[number].space.basis.shape[1]
+        immobile = tuple(np.flatnonzero(np.abs(space.basis).max(axis=1) <= DOUBLE.zero_rate).tolist())
+        end, freedoms = followed(linkage, closure, rates, immobile), self.near[number].space.basis.shape[1]
         return end.far > 0.0 and (bool(space.left) or (end.freedoms or 0) >= freedoms)
 
     def _add(self, mended: MendedPattern) -> _Candidate | None:

@@ -116,16 +116,16 @@ def followed(
     linkage: PosedLinkage,
     closure: ClosureEquations,
     rates: Floats,
-    still: tuple[int, ...] = (),
+    immobile: tuple[int, ...] = (),
     allowance: Allowance | None = None,
     *,
     counted: bool = True,
 ) -> TracedBranch:
-    """Follow a branch for ten degrees, or as far as it goes, by joints that are not `still`.
+    """Follow a branch for ten degrees, or as far as it goes, by joints that are not `immobile`.
 
     Its freedoms at the end are counted unless they are known.
     """
-    ways = [closure.locked(still), closure] if still else [closure]
+    ways = [closure.locked(immobile), closure] if immobile else [closure]
     for way in ways:
         end, error = walked(linkage.angles, way, rates, allowance)
         far = float(np.abs(end - linkage.angles).max())
@@ -236,11 +236,11 @@ def closes_along_general_rates(closure: ClosureEquations, angles: Floats, moving
     the rates are tangent to a motion; rates in general position are so only if all are, but for a set of measure
     zero.
     """
-    still = np.ones(len(angles), dtype=bool)
-    still[moving] = False
-    held = closure.locked(np.flatnonzero(still).tolist())
+    immobile = np.ones(len(angles), dtype=bool)
+    immobile[moving] = False
+    held = closure.locked(np.flatnonzero(immobile).tolist())
     chance = np.random.default_rng(len(moving)).normal(size=len(angles))
-    rates = corrected(held, angles).space.projected(np.where(still, 0.0, chance))
+    rates = corrected(held, angles).space.projected(np.where(immobile, 0.0, chance))
     size = float(np.abs(rates).max(initial=0.0))
     if size <= DOUBLE.zero_rate:
         return False

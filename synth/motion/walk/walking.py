@@ -67,7 +67,7 @@ class Event:
         """Record what was met on a step, the walk being at its end."""
 
 
-class Goal(Event):
+class DrivenGoal(Event):
     """Driven joints, at places `drivers`, have angles float[D], radians; the farthest from its angle leads.
 
     The walk begins at `start`; messages use the names of all joints. `lead` and `joint` are the place of the
@@ -219,7 +219,7 @@ class Walk(Iterator[Step]):
         self.here = corrected(closure, start)
         self.tangent, self.length = tangent, _FIRST
         self.events: list[Event] = []
-        self.goal: Goal | None = None
+        self.goal: DrivenGoal | None = None
         self.frames, self.met = [self.here], list[PathEvent]()
         self.drop: tuple[Floats, int] | None = None
         self.ended = ""
@@ -228,7 +228,7 @@ class Walk(Iterator[Step]):
         self._begun, self._steps = False, 0
         self._ahead = Ahead(closure)
 
-    def towards(self, goal: Goal, events: Sequence[Event]) -> None:
+    def towards(self, goal: DrivenGoal, events: Sequence[Event]) -> None:
         """Go on to a goal: back along the curve, if the driven joint does not go the way it is to go."""
         kept = [] if self.kept is None else [self.kept]
         self.goal, self.events, self.ended, self._steps = goal, [*events, *kept, goal], "", 0

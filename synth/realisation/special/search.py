@@ -396,7 +396,7 @@ def _judged(realisation: Sheet | HingedSolids, family: str, start: int, wishes: 
         if not places:
             return "nothing moves"
         if wishes.all_joints:
-            places = [place for place in places if not branches[place].still]
+            places = [place for place in places if not branches[place].immobile]
             if not places:
                 return "some joints do not move"
             places = [place for place in places if _least_share(at, branches[place]) >= _SHARE]

@@ -137,7 +137,7 @@ def test_a_pop_up_stops_with_any_of_its_creases():
     advice = advise(generate("box-pop-up").mechanism, 0)
     creases = {lock.joints[0] for lock in advice.locks}
     assert (advice.freedoms, len(creases), advice.more) == (1, 4, False)
-    assert all(set(lock.still) == creases - set(lock.joints) for lock in advice.locks)
+    assert all(set(lock.immobile) == creases - set(lock.joints) for lock in advice.locks)
 
 
 def flapped():

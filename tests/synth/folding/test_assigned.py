@@ -104,8 +104,8 @@ def test_a_pattern_marked_as_a_branch_folds_as_it_is_marked(name):
         assert told["begins"] == "has"
         assert (told["opposite"], told["immobile"]) == ([], [])
         assert again.verdict.freedoms == branch.freedoms
-        still = {at.joints[place] for place in branch.still}
-        assert {joint for joint in at.joints if edit.sheet.assignments[joint] == "F"} <= still
+        immobile = {at.joints[place] for place in branch.immobile}
+        assert {joint for joint in at.joints if edit.sheet.assignments[joint] == "F"} <= immobile
         assert edit.sheet.coordinates == at.drawn.coordinates
         assert edit.sheet.edges[: len(at.drawn.edges)] == at.drawn.edges
 

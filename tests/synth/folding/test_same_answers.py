@@ -40,14 +40,14 @@ def noisy(sheet, chance):
 def answers(sheet):
     """Return what is asked of a sheet, without figures: ways in their order, the way and joint taken, verdict."""
     found = configuration_of_sheet(sheet).branches
-    ways = [(one.signs, one.freedoms, one.certainty, one.still, one.modes) for one in found.branches]
+    ways = [(one.signs, one.freedoms, one.certainty, one.immobile, one.modes) for one in found.branches]
     try:
         folding = fold(sheet, frames=1)
         taken = (folding.branch, tuple(folding.driven))
     except SynthedraError as error:
         taken = type(error)
     said = mobility(sheet).verdict
-    verdict = (said.freedoms, said.basis, said.certainty, said.exhaustive, said.stiff_joints, said.clusters)
+    verdict = (said.freedoms, said.basis, said.certainty, said.exhaustive, said.immobile_joints, said.clusters)
     return ways, found.exhaustive, found.method, taken, verdict
 
 
@@ -78,7 +78,7 @@ def test_a_thousand_noisy_copies_get_the_answers_of_the_exact_files(data):
 
 
 def test_a_predicate_is_asked_of_rates_without_noise():
-    """Signs of rates that are rounding alone made `first_branch` admit a way on which a joint is still."""
+    """Signs of rates that are rounding alone made `first_branch` admit a way on which a joint is immobile."""
     corners = ((0, 0), (1, 0), (0.5, 0.9), (-1, 0), (-0.5, -0.7))
     linkage = linkage_of_sheet(Sheet(5, (), "", ((0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1)), corners))
     seen = []
@@ -95,9 +95,9 @@ def test_joints_that_do_not_move_on_a_branch_stay_where_they_are():
     sheet = map_sheet(3, 3)
     found = configuration_of_sheet(sheet).branches
     for number, branch in enumerate(found.branches):
-        assert branch.still
+        assert branch.immobile
         path = fold(sheet, branch=number, frames=3).path
-        assert not path.angles[:, list(branch.still)].any()
+        assert not path.angles[:, list(branch.immobile)].any()
         assert path.errors.max() < 1e-14
 
 

@@ -91,7 +91,7 @@ def test_a_flat_vertex_has_three_freedoms_less_than_creases(creases, rng):
 def test_a_sector_of_half_a_turn_folds_along_its_line_only():
     found = branches(fan(np.radians([0, 180, 220, 300])))
     assert [branch.freedoms for branch in found.branches] == [1]
-    assert found.branches[0].still == (2, 3)
+    assert found.branches[0].immobile == (2, 3)
 
 
 def test_a_sector_of_more_than_half_a_turn_is_rigid():
@@ -101,7 +101,7 @@ def test_a_sector_of_more_than_half_a_turn_is_rigid():
 def test_three_creases_fold_only_in_line():
     assert branches(fan(np.radians([0, 100, 220]))).branches == ()
     found = branches(fan(np.radians([0, 180, 250])))
-    assert [(branch.freedoms, branch.still) for branch in found.branches] == [(1, (2,))]
+    assert [(branch.freedoms, branch.immobile) for branch in found.branches] == [(1, (2,))]
 
 
 def test_rates_near_marks_agree_to_second_order():

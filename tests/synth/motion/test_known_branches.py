@@ -37,7 +37,7 @@ def test_a_map_folds_along_its_rows_or_its_columns(rows, columns):
     assert freedoms(found) == sorted([rows - 1, columns - 1])
     assert found.exhaustive
     assert found.method == "all modes"
-    across = [set(branch.still) for branch in found.branches]
+    across = [set(branch.immobile) for branch in found.branches]
     assert not across[0] & across[1]  # each crease folds on one of them
 
 
@@ -46,7 +46,7 @@ def test_concentric_squares_fold_along_one_diagonal():
     found = branches_of(creased)
     assert freedoms(found) == [1, 1]
     assert found.exhaustive
-    assert [len(creased.angles) - len(branch.still) for branch in found.branches] == [8, 8]
+    assert [len(creased.angles) - len(branch.immobile) for branch in found.branches] == [8, 8]
     whole = branches_of(linkage(pleated_hypar(3, middle_creased=False)))
     assert (whole.branches, whole.exhaustive, whole.no_motion) == ((), True, "proved")
 
@@ -73,7 +73,7 @@ def test_a_frog_base_has_five_freedoms_each_way():
 
 @pytest.mark.slow
 def test_a_frog_base_has_625_ways():
-    """Each of four petals is still (one way) or folds with its two ears in either mode of each (four ways)."""
+    """Each of four petals is immobile (one way) or folds with its two ears in either mode of each (four ways)."""
     start = linkage(frog_base())
     closure = ClosureEquations(start)
     tangent = rates_at(closure, start.angles)
@@ -81,8 +81,8 @@ def test_a_frog_base_has_625_ways():
     assert Counter((space.basis.shape[1], len(space.left)) for space in spaces) == {(6, 1): 5**4}
     for space in spaces[::25]:
         [rates], _ = general_rates(space, 1)
-        still = np.flatnonzero(np.abs(space.basis).max(axis=1) < 1e-7)
-        came = followed(start, closure, rates / np.abs(rates).max(), tuple(still.tolist()))
+        immobile = np.flatnonzero(np.abs(space.basis).max(axis=1) < 1e-7)
+        came = followed(start, closure, rates / np.abs(rates).max(), tuple(immobile.tolist()))
         assert (came.freedoms, came.error < 1e-12) == (5, True)
 
 
@@ -202,7 +202,7 @@ def test_tubes_of_miura_strips_have_one_freedom(columns):
     """A closed strip has more equations than joints, and moves all the same."""
     found = branches_of(linkage(miura_tube(columns, 1.1, 0.6)))
     assert freedoms(found) == [1]
-    assert found.branches[0].still == ()
+    assert found.branches[0].immobile == ()
     assert found.branches[0].error < 1e-12
 
 

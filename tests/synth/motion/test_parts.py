@@ -30,10 +30,10 @@ def twist():
 def test_square_twists_side_by_side_choose_each_their_branch(twist, number):
     sheet = side_by_side([twist] * number)
     verdict = mobility(sheet, exact=False).verdict
-    assert (verdict.freedoms, verdict.certainty, verdict.stiff_joints) == (number, "proved", ())
+    assert (verdict.freedoms, verdict.certainty, verdict.immobile_joints) == (number, "proved", ())
     assert (verdict.count.count, verdict.count.at_least, verdict.count.proved) == (6**number, False, True)
     assert f"{6**number} folding branches" in verdict.text
-    assert {(branch.freedoms, branch.stiff_joints) for branch in verdict.branches} == {(number, ())}
+    assert {(branch.freedoms, branch.immobile_joints) for branch in verdict.branches} == {(number, ())}
 
 
 def sheets_of_parts(twist):

@@ -10,7 +10,7 @@ from graphs.mechanism.surfaces import Cone
 from synth.conformed.linkages import loop_of_steps
 from synth.templates.hinges import Hinges, with_hinges
 from synth.templates.nets import slot_of, tab_shapes
-from synth.templates.on_surface import Dimensions, LayeredLinkage
+from synth.templates.on_surface import LayeredLinkage, TemplateSizes
 from synth.templates.pages import Paper, clipped, gauge, note_page, tiles_across
 from synth.templates.pieces import (
     Piece,
@@ -49,7 +49,7 @@ def test_example_of_slot_of():
 
 
 def test_example_of_layered():
-    made = LayeredLinkage(loop_of_steps(np.radians([40, 50, 50])), Cone(0.5), Dimensions())
+    made = LayeredLinkage(loop_of_steps(np.radians([40, 50, 50])), Cone(0.5), TemplateSizes())
     assert [(link.layer, round(np.degrees(link.width))) for link in made.links] == [(0, 40), (0, 50), (0, 50), (1, 140)]
 
 

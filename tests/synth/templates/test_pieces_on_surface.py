@@ -16,12 +16,12 @@ from graphs.errors import UnsolvableError
 from graphs.mechanism.surfaces import Cone, Cylinder, SurfaceLinkage
 from synth.candidates.job import CandidateJob
 from synth.conformed.linkages import OnSurface, loop_of_steps
-from synth.templates.on_surface import Dimensions, LayeredLinkage, surface_of, template_on_surface
+from synth.templates.on_surface import LayeredLinkage, TemplateSizes, surface_of, template_on_surface
 from synth.templates.pages import Paper, laid_out, nested, pages_of
 from synth.templates.template import linkage_on_a_surface
 
 LAMBDA = np.radians(28)
-SIZES = Dimensions(size=90, thickness=0.4)
+SIZES = TemplateSizes(size=90, thickness=0.4)
 CHAINS = {"watt": WATT, "stephenson": STEPHENSON}
 
 
@@ -196,7 +196,7 @@ def test_pages_hold_every_piece_and_the_note_every_joint():
 def test_pieces_of_a_linkage_lie_in_each_others_bays_where_that_saves_a_page():
     """All on one page, 6 mm apart and within its window, where rows of boxes take two."""
     chain = OnSurface(FOUR_BAR, np.radians([0, 80, 280, 190]).tolist(), np.radians(65))
-    template = template_on_surface(chain, Cone(np.radians(65)), Dimensions(size=90))
+    template = template_on_surface(chain, Cone(np.radians(65)), TemplateSizes(size=90))
     window = Paper(210, 297).window
     pieces = [piece.at_origin() for piece in template.pieces]
     assert len(list(laid_out(pieces, *window))) == 2

@@ -16,7 +16,7 @@ from graphs.errors import InvariantError, UnsolvableError
 from graphs.files.formats import read, write
 from graphs.mechanism.sheet import Sheet, with_all_edges
 from synth.patterns.generated import generate
-from synth.templates.solids import Plates, fitted_size, plates_in_space, poses_of, write_solids
+from synth.templates.solids import SheetPlates, fitted_size, plates_in_space, poses_of, write_solids
 
 FOLDED = {"miura": 1.0, "box-pop-up": 1.0, "miura-tube": None, "kresling": None, "square-twist": 0.5, "slit-array": 0.4}
 QUICK = ("miura", "box-pop-up")
@@ -42,7 +42,7 @@ def motion(tmp_path, data):
 )
 def test_every_panel_is_a_closed_plate_of_its_thickness(name):
     sheet, places = folded(name)
-    plates = Plates(sheet, places, thickness=1.5, gap=2)
+    plates = SheetPlates(sheet, places, thickness=1.5, gap=2)
     assert set(plates.faces) == set(range(len(sheet.faces)))
     for mesh, face in zip(plates_in_space(plates), plates.faces, strict=True):
         assert is_watertight(mesh)
@@ -53,7 +53,7 @@ def test_every_panel_is_a_closed_plate_of_its_thickness(name):
 
 
 def test_the_gap_is_open_and_free_sides_are_where_they_were():
-    plates = Plates(with_all_edges(HINGED), np.array(HINGED.coordinates), thickness=1, gap=3)
+    plates = SheetPlates(with_all_edges(HINGED), np.array(HINGED.coordinates), thickness=1, gap=3)
     first, second = plates_in_space(plates)
     assert first.corners[:, 0].max() == pytest.approx(38.5)
     assert second.corners[:, 2].min() == pytest.approx(1.5)
@@ -68,7 +68,7 @@ def test_plates_do_not_touch_at_a_corner_that_points_inwards():
     corners = ((0, 0), (40, 0), (40, 20), (20, 20), (20, 40), (0, 40), (40, 40))
     sheet = with_all_edges(Sheet(7, (), "", ((0, 1, 2, 3, 4, 5), (3, 2, 6, 4)), corners))
     places = np.column_stack([corners, np.zeros(7)])
-    bracket, _ = plates_in_space(Plates(sheet, places, thickness=1, gap=3))
+    bracket, _ = plates_in_space(SheetPlates(sheet, places, thickness=1, gap=3))
     assert is_watertight(bracket)
     assert np.abs(bracket.corners[:, :2] - (20, 20)).max(axis=1).min() == pytest.approx(1.5)
 
@@ -235,6 +235,6 @@ def test_what_cannot_be_made_is_refused(options, error, told, tmp_path):
 def test_a_panel_that_changes_its_shape_does_not_move():
     places = np.array(HINGED.coordinates)
     sheet = with_all_edges(HINGED)
-    plates = Plates(sheet, places, thickness=1, gap=1)
+    plates = SheetPlates(sheet, places, thickness=1, gap=1)
     with pytest.raises(UnsolvableError, match="panel 0 in pose 1 has another shape"):
         plates.motions(sheet, np.array([places, places * (1, 1.1, 1)]))

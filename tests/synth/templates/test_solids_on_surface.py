@@ -12,10 +12,10 @@ from graphs.errors import UnsolvableError
 from graphs.mechanism.surfaces import Cone, Cylinder
 from synth.candidates.job import CandidateJob
 from synth.conformed.linkages import OnSurface, loop_of_steps
-from synth.templates.on_surface import Dimensions, LayeredLinkage, solids_on_surface
+from synth.templates.on_surface import LayeredLinkage, TemplateSizes, solids_on_surface
 
 LAMBDA = np.radians(28)
-SIZES = Dimensions(size=90, thickness=1.0)
+SIZES = TemplateSizes(size=90, thickness=1.0)
 
 
 @pytest.fixture(scope="module")

@@ -34,8 +34,8 @@ KEYS = {
     "proved",
     "not_followed",
     "bounds",
-    "stiff_joints",
-    "stiff_places",
+    "immobile_joints",
+    "immobile_places",
     "clusters",
     "as_written",
     "within_precision",
@@ -94,9 +94,9 @@ def test_marks_choose_up_to_the_sign_of_all(mirrored):
 def test_a_rigid_thing_is_proved_rigid():
     verdict = told(fan(np.radians([0, 120, 240])))
     assert (verdict.freedoms, verdict.certainty, verdict.text) == (0, "proved", "Rigid.")
-    assert len(verdict.stiff_joints) == 3
+    assert len(verdict.immobile_joints) == 3
     assert verdict.clusters == ((0, 1, 2),)
-    assert set(verdict.places) == set(verdict.stiff_joints)
+    assert set(verdict.places) == set(verdict.immobile_joints)
 
 
 def test_a_flap_on_a_rigid_thing_is_its_one_freedom():
@@ -106,29 +106,29 @@ def test_a_flap_on_a_rigid_thing_is_its_one_freedom():
     assert verdict.freedoms == 1
     assert verdict.text.startswith("Rigid except for flaps: 1 degree of freedom, at the flap joint ")
     assert ". Immobile joints: " in verdict.text
-    assert len(verdict.stiff_joints) == 3
+    assert len(verdict.immobile_joints) == 3
 
 
-def test_a_sector_of_180_degrees_leaves_the_others_stiff():
+def test_a_sector_of_180_degrees_leaves_the_others_immobile():
     """The straight line folds, and carries the half with three creases."""
     verdict = told(fan(np.radians([0, 180, 230, 300])))
     assert verdict.freedoms == 1
-    assert len(verdict.stiff_joints) == 2
+    assert len(verdict.immobile_joints) == 2
     assert "Immobile joints: " in verdict.text
     assert len(verdict.clusters) == 1
 
 
 def test_what_moves_is_never_said_not_to():
-    """Of every way each joint that moves at its sample is among no stiff joints."""
+    """Of every way each joint that moves at its sample is among no immobile joints."""
     rng = np.random.default_rng(5)
     for _ in range(10):
         headings = np.sort(rng.uniform(0, 2 * np.pi, rng.integers(4, 7)))
         answer = mobility(fan(headings), exact=False)
-        stiff = set(answer.verdict.stiff_joints)
+        immobile = set(answer.verdict.immobile_joints)
         for way in answer.verdict.branches:
             moving = {joint for joint, sign in zip(range(len(headings)), way.signs, strict=True) if sign != "0"}
-            assert not moving & stiff
-            assert stiff <= set(way.stiff_joints)
+            assert not moving & immobile
+            assert immobile <= set(way.immobile_joints)
 
 
 def test_folded_poses_are_regular():

@@ -40,14 +40,14 @@ def test_what_a_page_moves_is_at_the_configuration_it_names(bird_base):
     assert (at["joints"], at["links"]) == ([str(joint) for joint in moving["joints"]], len(moving["links"]))
     assert at == json.loads(bird_base.answer)["configuration"]
     way = moving["ways"]["all"][moving["ways"]["taken"]]
-    assert (at["freedoms"], at["immobile_joints"]) == (way["freedoms"], way["still"])
+    assert (at["freedoms"], at["immobile_joints"]) == (way["freedoms"], way["immobile"])
 
 
 def test_each_way_has_a_driver_for_each_freedom_the_fastest_first(bird_base):
     for way in bird_base.moving.ways.all:
         assert len(set(way.drivers)) == len(way.drivers) == way.freedoms == 5
         assert abs(way.rates[way.drivers[0]]) == pytest.approx(1.0, abs=1e-6)
-        assert not set(way.drivers) & set(way.still)
+        assert not set(way.drivers) & set(way.immobile)
 
 
 def test_a_pattern_is_told_where_it_is_drawn(bird_base):
@@ -63,7 +63,7 @@ def test_what_is_rigid_is_shown_with_the_reason(data):
     assert shown.moving.ways is None
     assert len(shown.moving.bodies.faces) > 20
     assert "no motion begins at this configuration (proved: " in shown.notes[0]
-    assert len(shown.stiff) == len(shown.moving.linkage.angles)
+    assert len(shown.immobile) == len(shown.moving.linkage.angles)
 
 
 def test_a_type_is_a_drawing(data):
@@ -73,12 +73,12 @@ def test_a_type_is_a_drawing(data):
     assert "has none" in shown.notes[0]
 
 
-def test_stiff_creases_and_clusters_are_told():
+def test_immobile_creases_and_clusters_are_told():
     """Three creases about a point hold each other; the flap beside them moves."""
     corners = ((0, 0), (2, 0), (-1, 2), (-1, -2), (3, 3))
     faces = ((0, 1, 2), (0, 2, 3), (0, 3, 1), (1, 4, 2))
     shown = shown_of(Sheet(5, (), "", faces, corners))
-    assert len(shown.stiff) == 3
+    assert len(shown.immobile) == 3
     assert shown.clusters == (("0", "1", "2"),)
 
 

@@ -32,7 +32,7 @@ test("middle and radius", () => {
 test("the largest size on the path is that of a parallelogram stretched along its longer links", () => {
   const places = [[0, 0, 0], [2, 0, 0], [2, 1, 0], [0, 1, 0]];
   const name = String;
-  const mechanism = new Mechanism(/** @type {any} */ ({ stiff: [], clusters: [] }), /** @type {any} */ ({
+  const mechanism = new Mechanism(/** @type {any} */ ({ immobile: [], clusters: [] }), /** @type {any} */ ({
     solver: {
       points: places, directions: places.map(() => [0, 0, 1]), angles: [0, 0, 0, 0],
       loops: [{ joints: [0, 1, 2, 3], signs: [1, 1, 1, 1], centre: "infinite", frame: [[1, 0, 0], [0, 1, 0], [0, 0, 1]] }],
@@ -40,7 +40,7 @@ test("the largest size on the path is that of a parallelogram stretched along it
       tolerances: { closed: 1e-12, zero: 1e-9, zero_rate: 1e-7, immobile: 1e-9, same_configuration: 1e-6 },
     },
     bodies: { vertices: places, owners: [0, 1, 2, 3], faces: [], edges: [] },
-    ways: { all: [{ told: "", rates: [1, -1, 1, -1], still: [], drivers: [0], freedoms: 1 }], singular: false, taken: 0 },
+    ways: { all: [{ told: "", rates: [1, -1, 1, -1], immobile: [], drivers: [0], freedoms: 1 }], singular: false, taken: 0 },
     joints: [0, 1, 2, 3].map(name), links: [0, 1, 2, 3].map(name), centres: [], between: [], extent: 1, middle: [0, 0, 0],
   }));
   const diagonal = (/** @type {Float64Array} */ at) => Math.hypot(at[6] - at[0], at[7] - at[1], at[8] - at[2]);

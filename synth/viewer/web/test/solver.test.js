@@ -147,7 +147,7 @@ test("a joint that is held stays while another is driven, in whatever order", ()
 
 test("a joint cannot move where all others are held", () => {
   const motion = new Motion(fiveBar(), null);
-  assert.equal(motion.to({ joint: 0, held: [1, 2] }, 0.3), "still");
+  assert.equal(motion.to({ joint: 0, held: [1, 2] }, 0.3), "immobile");
   assert.deepEqual([...motion.pose.angles], [0, 0, 0, 0, 0]);
 });
 

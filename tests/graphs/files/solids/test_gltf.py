@@ -7,7 +7,7 @@ from math import cos, radians, sin
 import numpy as np
 
 from graphs.files.solids.gltf import gltf_text
-from graphs.files.solids.meshes import Mesh
+from graphs.files.solids.meshes import SolidMesh
 
 CORNERS = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1.0]])
 TRIANGLES = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]])
@@ -21,7 +21,7 @@ def about(axis, angle):
 def test_two_whole_turns_go_on_the_same_way():
     axis = np.array([2, -1, 2]) / 3
     turns = np.array([[about(axis, radians(angle))] for angle in range(0, 721, 40)])
-    document = json.loads(gltf_text([Mesh("a", CORNERS, TRIANGLES)], turns, np.zeros((len(turns), 1, 3))))
+    document = json.loads(gltf_text([SolidMesh("a", CORNERS, TRIANGLES)], turns, np.zeros((len(turns), 1, 3))))
     output = document["animations"][0]["samplers"][0]["output"]
     view = document["bufferViews"][document["accessors"][output]["bufferView"]]
     raw = base64.b64decode(document["buffers"][0]["uri"].partition(",")[2])

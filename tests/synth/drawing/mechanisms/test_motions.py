@@ -37,7 +37,7 @@ def test_panels_that_move_as_one():
     assert [panel.fill for panel in panels] == ["class0", "class0", "class0", "body"]
     looks = {(shape.colour, bool(shape.dash)) for shape in creases if shape.data}
     assert looks == {("grey", True), ("class1", False)}
-    assert "1 crease moves (orange); 3 still (grey, dotted; " in said(scene)
+    assert "1 crease moves (orange); 3 immobile (grey, dotted; " in said(scene)
 
 
 def test_what_is_not_known_is_neither_still_nor_moving(monkeypatch):
@@ -45,7 +45,7 @@ def test_what_is_not_known_is_neither_still_nor_moving(monkeypatch):
     monkeypatch.setattr(
         "synth.drawing.mechanisms.creases.verdict_of_motion",
         lambda pattern: replace(
-            verdict_of_motion(pattern), branches=(), certainty="not known", stiff_joints=(0, 1, 2, 3)
+            verdict_of_motion(pattern), branches=(), certainty="not known", immobile_joints=(0, 1, 2, 3)
         ),
     )
     assert set(motions_by_verdict(VERTEX).of.values()) == {"unknown"}

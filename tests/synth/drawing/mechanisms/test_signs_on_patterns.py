@@ -53,7 +53,7 @@ def test_creases_that_do_not_move_are_told_apart():
     bands = layer(scene, "marks")
     assert len(bands) == 2
     assert all(band.dash for band in bands)
-    assert "2 do not move (light blue dots)" in told(scene)
+    assert "2 are immobile (light blue dots)" in told(scene)
 
 
 def test_a_pattern_as_it_folds_has_no_bands_and_one_without_marks_is_refused():

@@ -62,7 +62,11 @@ def test_a_turn_and_another_unit_do_not_hide_what_folds(name, freedoms, ways, fa
 def test_two_freedoms_come_back_in_both_ways(noise):
     sheet, size = copy_of("map 3 x 3", noise, 0)
     verdict = verdict_of_motion(stated(sheet, size))
-    assert (verdict.freedoms, kinds(verdict), verdict.stiff_joints) == (2, {2: 2}, exact("map 3 x 3").stiff_joints)
+    assert (verdict.freedoms, kinds(verdict), verdict.immobile_joints) == (
+        2,
+        {2: 2},
+        exact("map 3 x 3").immobile_joints,
+    )
 
 
 def test_a_tapered_sheet_drawn_by_a_program():
@@ -155,7 +159,7 @@ def test_the_misfit_is_that_of_a_pattern_that_folds(name, noise):
         driver = int(np.abs(branch.rates).argmax())
         goal = 1.0 * np.sign(branch.rates[driver])
         options = PathOptions(branch.rates, straight=True)
-        path = driven_path(closure.locked(branch.still), linkage.angles, [driver], [goal], options=options)
+        path = driven_path(closure.locked(branch.immobile), linkage.angles, [driver], [goal], options=options)
         assert not path.stopped
         assert path.errors.max() < 1e-12
 

@@ -149,7 +149,7 @@ def test_what_is_inside_triangles_is_immobile():
             if inner and inner <= free:
                 assert place not in held
         branches = branches_from_flat(sheet)
-        assert set(branches.branch(0).still) >= held
+        assert set(branches.branch(0).immobile) >= held
 
 
 def test_more_equations_than_unknowns_leave_the_common_points(rng):

@@ -68,7 +68,7 @@ def test_the_space_that_holds_the_wanted_rates_comes_first():
 
 
 def test_where_newtons_method_finds_nothing_the_nearest_space_is_taken(monkeypatch):
-    """A map folds along its lines of one direction; across them all joints are still."""
+    """A map folds along its lines of one direction; across them all joints are immobile."""
     linkage, closure, _ = posed(map_sheet(7, 5))
     wanted = np.random.default_rng(0).choice([-1.0, 1.0], closure.joints)
     monkeypatch.setattr(nearest, "rates_near", lambda *_: None)
@@ -209,8 +209,8 @@ def test_sparse_factors_find_what_full_matrices_do(linkage, monkeypatch):
             for other, its in zip(branches.branches, projectors([one.space for one in branches.branches]), strict=True)
             if np.abs(projector - its).max() < 1e-9
         ]
-        assert [(other.freedoms, other.certainty, other.still) for other in same] == [
-            (one.freedoms, one.certainty, one.still)
+        assert [(other.freedoms, other.certainty, other.immobile) for other in same] == [
+            (one.freedoms, one.certainty, one.immobile)
         ]
 
 

@@ -17,7 +17,7 @@ def bird_base(data):
 @pytest.fixture(scope="module")
 def general_pose(bird_base):
     """A pose of a branch on which all twenty creases fold."""
-    return next(branch for branch in bird_base.branches.branches if not branch.still).sample
+    return next(branch for branch in bird_base.branches.branches if not branch.immobile).sample
 
 
 def test_rates_are_those_of_the_dense_matrix(bird_base, general_pose):

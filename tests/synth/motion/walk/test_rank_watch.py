@@ -8,7 +8,7 @@ from graphs.mechanism.sc import SCGraph
 from synth.motion.closure import ClosureEquations
 from synth.motion.linkage import linkage_of_axes
 from synth.motion.walk.step import RankWatch
-from synth.motion.walk.walking import Goal, Walk
+from synth.motion.walk.walking import DrivenGoal, Walk
 
 
 @pytest.mark.parametrize("joints", range(4, 13))
@@ -19,7 +19,7 @@ def test_many_freedoms_are_not_taken_for_a_rank_that_drops(joints):
     linkage = linkage_of_axes(ring, {joint: ((0.0, 0.0, 0.0), axis) for joint, axis in enumerate(axes)})
     closure = ClosureEquations(linkage)
     walk = Walk(closure, linkage.angles, watch=RankWatch(closure))
-    goal = Goal([0], linkage.angles[[0]] + 0.3, walk.here, range(joints))
+    goal = DrivenGoal([0], linkage.angles[[0]] + 0.3, walk.here, range(joints))
     walk.towards(goal, [])
     while goal.ahead(walk.here):
         next(walk)

@@ -39,7 +39,7 @@ def found(graph, geometry="", **options):
     assert answer.mobility <= 0
     assert member.freedoms == 1
     assert member.residual < 1e-12
-    assert not member.branch.still
+    assert not member.branch.immobile
     moved = synth.move(member.mechanism, frames=4, branch=member.number)
     assert moved.closure < 1e-11
     assert np.ptp(moved.path.angles, axis=0).min() > 1e-3, "a joint does not move"
@@ -168,7 +168,7 @@ def test_derivatives_of_conditions_on_drawings():
 def test_a_general_member_is_rigid():
     """Another way to say that the geometry is special: a member that was not chosen does not move."""
     at = synth.realise(mechanism_from_map_id(QUADS), tries=2).configuration
-    assert all(one.freedoms is None or one.still for one in at.branches.branches)
+    assert all(one.freedoms is None or one.immobile for one in at.branches.branches)
 
 
 @pytest.mark.parametrize("tries", [1, slow(2)])
@@ -195,7 +195,7 @@ def test_trivial_motions_are_refused_unless_asked_for():
     options = {"freedoms": 2, "geometry": "flat-foldable, turns by 90 degrees, 4", "tries": 1}
     assert not synth.realise(scd, **options).members
     (member,) = synth.realise(scd, **options, all_joints=False).members
-    assert member.branch.still
+    assert member.branch.immobile
 
 
 def test_the_type_stays_the_same_and_the_mark_is_written(tmp_path):

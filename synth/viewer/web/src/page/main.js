@@ -31,7 +31,7 @@ const NO_WEBGL = "This browser shows no WebGL, so there is no view in space; the
 
 /** @type {ShownData} */
 const NOTHING = {
-  name: "", verdict: "", report: "", notes: [], pictures: {}, moving: null, stiff: [], clusters: [], drawn: null, flat: null,
+  name: "", verdict: "", report: "", notes: [], pictures: {}, moving: null, immobile: [], clusters: [], drawn: null, flat: null,
   on_request: false, answer: "", configuration: null,
 };
 
@@ -299,7 +299,7 @@ class Page {
       }
       const letter = mechanism.data.bodies.edges.find((edge) => edge.joint === joint)?.letter ?? "";
       const ends = between[joint].map((one) => links[one]).join(" and ");
-      const what = [WORDS[letter], `${mechanism.angleOf(joint).toFixed(2)}°`, mechanism.stiff.has(joint) && "stiff"];
+      const what = [WORDS[letter], `${mechanism.angleOf(joint).toFixed(2)}°`, mechanism.immobile.has(joint) && "immobile"];
       this.#told({ joint: joints[joint] }, `between links ${ends}: ${what.filter(Boolean).join(", ")}`);
     } else if (link >= 0) this.#told({ link: links[link] }, this.#clusterTold(mechanism, link));
     else this.#told(id, "");

@@ -37,7 +37,7 @@ export class Mechanism {
    */
   constructor(shown, moving) {
     this.data = moving;
-    this.stiff = new Set(shown.stiff.map((id) => moving.joints.indexOf(id)).filter((place) => place >= 0));
+    this.immobile = new Set(shown.immobile.map((id) => moving.joints.indexOf(id)).filter((place) => place >= 0));
     this.clusterOf = new Map(shown.clusters.flatMap((ids, n) => ids.map((id) => [moving.links.indexOf(id), n])));
     this.way = moving.ways?.taken ?? -1;
     /** @type {number[]} - Places of independent joints, one for each freedom. */
@@ -102,7 +102,7 @@ export class Mechanism {
    */
   canDrive(joint) {
     const way = this.data.ways?.all[this.way];
-    return way !== undefined && joint >= 0 && !way.still.includes(joint);
+    return way !== undefined && joint >= 0 && !way.immobile.includes(joint);
   }
 
   /**
@@ -261,7 +261,7 @@ export class Mechanism {
     const name = `joint ${joints[this.driver]}`;
     switch (stopped) {
       case "": return "";
-      case "still":
+      case "immobile":
         return held.length ? `${name} cannot move here while joints ${held.map((joint) => joints[joint]).join(", ")} stay`
           : `${name} cannot move here`;
       case "turns back": return `${name} turns back here; along the path it goes on`;

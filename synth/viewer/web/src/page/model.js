@@ -140,7 +140,7 @@ export class Model {
     this.render();
   }
 
-  /** Give everything its colour: of clusters, letters, stiff joints, and of what is chosen. */
+  /** Give everything its colour: of clusters, letters, immobile joints, and of what is chosen. */
   coloured() {
     const { mechanism, panels, triangles, lines, drawn } = this;
     if (!mechanism || !panels || !triangles || !lines || !drawn) return;
@@ -154,7 +154,7 @@ export class Model {
       colours.needsUpdate = true;
     }
     const row = drawn.flatMap(({ letter, joint }) => {
-      const shade = new three.Color(mechanism.stiff.has(joint) ? colour("stiff") : letterColour(letter));
+      const shade = new three.Color(mechanism.immobile.has(joint) ? colour("immobile") : letterColour(letter));
       return [shade.r, shade.g, shade.b, shade.r, shade.g, shade.b];
     });
     const positions = new Float32Array(3 * (this.ends?.length ?? 0));

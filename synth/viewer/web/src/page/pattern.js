@@ -109,9 +109,9 @@ export class Pattern {
     const svg = document.importNode(parsed, true);
     svg.removeAttribute("width");
     svg.removeAttribute("height");
-    const stiff = new Set(shown.stiff);
+    const immobile = new Set(shown.immobile);
     for (const shape of svg.querySelectorAll("path[data-joint]")) {
-      shape.classList.toggle("stiff", stiff.has(/** @type {SVGElement} */ (shape).dataset.joint ?? ""));
+      shape.classList.toggle("immobile", immobile.has(/** @type {SVGElement} */ (shape).dataset.joint ?? ""));
     }
     pane.replaceChildren(svg);
     this.mark(this.marked);

@@ -5,7 +5,7 @@
 /** Seconds that count, at most, between two pictures: a page in the background does not jump. */
 const LONGEST = 0.1;
 /** Degrees that are no motion. */
-const STILL = 1e-9;
+const UNMOVED = 1e-9;
 
 export class Playing {
   #way = 1;
@@ -63,7 +63,7 @@ export class Playing {
     this.#last = now;
     const before = mechanism.travelled;
     const reached = mechanism.along(before + this.#way * this.page.speed() * seconds);
-    const moved = Math.abs(mechanism.travelled - before) > STILL;
+    const moved = Math.abs(mechanism.travelled - before) > UNMOVED;
     if ((!reached || !moved) && mechanism.goal === null && seconds > 0) {
       if (this.#turned && !moved) return this.stop();
       this.#way = -this.#way;

@@ -13,7 +13,7 @@
  * @typedef {object} WayData
  * @property {string} told
  * @property {number[]} rates
- * @property {number[]} still - Places of joints.
+ * @property {number[]} immobile - Places of joints.
  * @property {number[]} drivers - Of independent ones, one for each freedom; the first begins fastest.
  * @property {number | null} freedoms - Null: not known.
  *
@@ -67,7 +67,7 @@
  * @property {{light?: string, dark?: string}} pictures
  * @property {MovingData | null} moving
  * @property {object | null} configuration - Where it moves from, and on which branch first, as in docs/command-json.md.
- * @property {string[]} stiff
+ * @property {string[]} immobile
  * @property {string[][]} clusters
  * @property {DrawnData | null} drawn - Of a crease pattern in a plane.
  * @property {FlatData | null} flat - Of a crease pattern that folds flat.

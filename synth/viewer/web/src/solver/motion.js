@@ -36,7 +36,7 @@ const never = () => false;
 /**
  * How a path ended.
  *
- * @typedef {"" | "still" | "turns back" | "limit" | "lost" | "late"} Stopped
+ * @typedef {"" | "immobile" | "turns back" | "limit" | "lost" | "late"} Stopped
  * Nothing: it reached its goal. The driven joint cannot move; turns back; panels lie on each other; no closed pose is
  * found beyond; it took too long, and can go on from where it is.
  */
@@ -197,7 +197,7 @@ export class Motion {
     const way = Math.sign(this.#stepping?.rates?.[drive.joint] ?? 0) || this.#sense; // it may have turned back
     const stepping = this.#steps(drive, way, this.#sense);
     const rates = stepping.straightOn(this.pose, way);
-    if (largest(rates) === 0) return "still";
+    if (largest(rates) === 0) return "immobile";
     const ahead = this.#startAhead(rates);
     if (ahead <= 1.5 * AT_START) {
       this.#throughStart(drive, rates);
@@ -245,7 +245,7 @@ export class Motion {
     const left = value - this.pose.angles[stepping.driver];
     const rates = stepping.onwards(this.pose, left);
     const speed = way * rates[stepping.driver];
-    if (Math.abs(speed) <= this.linkage.tolerances.zero_rate) return "still";
+    if (Math.abs(speed) <= this.linkage.tolerances.zero_rate) return "immobile";
     if (speed < 0) return "turns back";
     const step = stepping.taken(this.pose, rates, left);
     return step === null ? "lost" : this.#landed(stepping, step, way, value);
