@@ -96,7 +96,8 @@ def loads_on_stresses(pose: GeneralPose, diagonals: Sequence[Diagonal]) -> tuple
     expected = len(linkage.angles) - pose.rates.shape[1]
     if parts.rank != expected:
         raise NumericalError(
-            f"the closure equations in space have rank {parts.rank} at this pose; expected {expected}, as about centres"
+            f"the closure equations in space have rank {parts.rank} at this configuration; "
+            f"expected {expected}, as about centres"
         )
     columns = np.array([_column(pose, one) for one in diagonals]).reshape(len(diagonals), len(matrix))
     flaps = [not column.any() for column in columns]

@@ -222,7 +222,7 @@ class States(Printed):
 
     @property
     def classes(self) -> tuple[str, ...]:
-        """The classes that transitions at this pose make it one of."""
+        """The classes that transitions at this configuration make it one of."""
         return tuple(dict.fromkeys(transition.name for transition in self.transitions))
 
     def to_json(self) -> dict[str, Any]:

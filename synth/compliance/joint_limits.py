@@ -41,9 +41,9 @@ class End:
 class RideAlong:
     """A ride-along, and the range of angles that it leaves to the joint it sits on.
 
-    The second of its own `joints` is between its links. `angle`, radians, is that of `joint` at the pose; `lower`
-    and `upper` end the range of this that holds the pose, None where it may make a full turn. `freedoms` are those
-    of the mechanism with the ride-along rigid; None where they are unknown.
+    The second of its own `joints` is between its links. `angle`, radians, is that of `joint` at the
+    configuration; `lower` and `upper` end the range of this that holds it, None where it may make a full turn.
+    `freedoms` are those of the mechanism with the ride-along rigid; None where they are unknown.
     """
 
     joints: tuple[JointId, JointId, JointId]
@@ -71,8 +71,8 @@ class RideAlong:
 class Truss:
     """What remains with all ride-alongs rigid: `locked` are the joints between their links.
 
-    Rank is that of the closure equations at the pose, `redundant` counts those that follow from others, `freedoms`
-    are those of finite motion; None where they are unknown.
+    Rank is that of the closure equations at the configuration, `redundant` counts those that follow from others,
+    `freedoms` are those of finite motion; None where they are unknown.
     """
 
     locked: tuple[JointId, ...]

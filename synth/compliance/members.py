@@ -97,7 +97,7 @@ NONE = Members()
 
 
 def released(linkage: PosedLinkage, compliant: Members, active: Members) -> PosedLinkage:
-    """Return the linkage at its pose with resting members rigid and active ones, which are compliant, released.
+    """Return the linkage at its configuration, resting members rigid and active ones, which are compliant, released.
 
     A resting joint makes its two links one, a resting link stays as it is. An active joint turns; an active link
     gives way in any manner, as if it and its joints were absent. Loops of the answer may pass a link twice; it is
@@ -482,7 +482,7 @@ class _FirstOrder:
 
 
 def _freedoms(linkage: PosedLinkage) -> tuple[int | None, Certainty]:
-    """Return the finite freedoms from a pose, on the freest way."""
+    """Return the finite freedoms from a configuration, on the freest way."""
     joints = len(linkage.angles)
     closure = ClosureEquations(linkage)
     rank = spectrum(closure.at(linkage.angles)[1].toarray(), DOUBLE.derivative).rank

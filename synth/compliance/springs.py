@@ -39,7 +39,7 @@ class Springs:
     stiffness : mapping of joint id to float
         0 or more; other joints turn freely.
     rest : mapping of joint id to float
-        Angles at which springs are at rest, radians, from the zero of each joint; by default those of the pose.
+        Angles at which springs are at rest, radians, from the zero of each joint; by default those of the linkage.
     moments : mapping of joint id to float
         That turn a joint's second link against its first, whatever its angle.
 
@@ -122,7 +122,7 @@ class SpringArrays:
 
 
 class Tangent(NamedTuple):
-    """Derivatives of the closure equations at a pose, float[rows, J], and all motions, orthonormal float[J, f]."""
+    """Derivatives of closure equations at a configuration, float[rows, J], and all motions, orthonormal float[J, f]."""
 
     jacobian: Floats
     rates: Floats
@@ -140,7 +140,7 @@ class ElasticLinkage:
     """A linkage with springs, from a regular closed pose; `freedoms` are those of finite motion.
 
     Raise `InvariantError` for joints that do not exist, `UnsolvableError` if loops are not closed, nothing moves,
-    or the pose is singular.
+    or the configuration is singular.
     """
 
     def __init__(self, linkage: PosedLinkage, springs: Springs) -> None:
@@ -267,7 +267,7 @@ def equilibrium(elastic: ElasticLinkage, start: Floats | None = None, held: tupl
     """Return the equilibrium that the energy falls to from a closed pose.
 
     Newton's method on the closed poses, with the curvature made positive, and steps halved until the energy falls
-    as its slope predicts. The start, radians, is by default the pose of the linkage; joints at the places `held`
+    as its slope predicts. The start, radians, is by default that of the linkage; joints at the places `held`
     keep their angles. Raise `NumericalError` at a singular pose, or where balance is not reached.
     """
     angles = elastic.linkage.angles if start is None else start

@@ -155,8 +155,8 @@ class Tolerance:
 def axis_tolerances(linkage: PosedLinkage, order: FirstOrderClosure) -> list[Tolerance]:
     """Return how far each axis may err, least first; axes that may err alike in the order of the joints.
 
-    An error of an axis leaves the loops closed at the pose, and makes a redundant equation one of the rates: its
-    singular value grows from zero in proportion. Where it reaches the smallest that counts, the linkage is locked.
+    An error of an axis leaves the loops closed at the configuration, and makes a redundant equation one of the rates:
+    its singular value grows from zero in proportion. Where it reaches the smallest that counts, the linkage is locked.
     """
     growth = growths(linkage, order)
     tolerances = []

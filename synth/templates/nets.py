@@ -209,7 +209,7 @@ def pieces_of_panels(
 def _kind(panels: Panels, edge: int, side: _Side) -> Kind | None:
     """Return the kind of fold at an edge, seen from the printed side; None for a flat edge.
 
-    It follows from the letter, else from the fold angle of the pose; a flat pose leaves it open.
+    It follows from the letter, else from the fold angle of the configuration; a flat one leaves it open.
     """
     letter = panels.sheet.assignments[edge]
     if letter in FLAT:

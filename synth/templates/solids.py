@@ -210,7 +210,7 @@ def write_solids(
     ----------
     sheet : Sheet
     path : str or Path
-        ``.stl``, ``.3mf``, ``.obj``: the pose of the sheet; ``.gltf``: with the frames of its file as a motion.
+        ``.stl``, ``.3mf``, ``.obj``: the sheet as it is; ``.gltf``: with the frames of its file as a motion.
     thickness : float, optional
         Of panels, millimetres.
     gap : float, optional

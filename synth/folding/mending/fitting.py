@@ -576,7 +576,7 @@ def _sizes(jacobian: scipy.sparse.csr_matrix, turned: Floats) -> Floats:
 
 
 def _near(closure: ClosureEquations, here: Floats, direction: Floats, driver: int, goal: float) -> Floats:
-    """Return a pose that closes as well as it can, with the driven joint at its goal."""
+    """Return a configuration that closes as well as it can, with the driven joint at its goal."""
     steps = max(1, int(np.ceil(abs(goal - here[driver]) / _MOTIONS.step)))
     for at in np.linspace(here[driver], goal, steps + 1)[1:]:
         expected = here + direction * ((at - here[driver]) / direction[driver])

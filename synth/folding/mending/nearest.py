@@ -372,7 +372,7 @@ class _Search(_PatternSearch):
         return [number for number in left if not any(number in one.has for one in self.candidates)]
 
     def _had_by(self, linkage: PosedLinkage, *, follow: bool) -> frozenset[int]:
-        """Return which near branches a linkage has; where that is not clear at the pose they are followed."""
+        """Return which near branches a linkage has; where that is not clear at the configuration they are followed."""
         spaces, _ = spaces_at(linkage, MOST_BRANCHES)
         closure, linear = ClosureEquations(linkage), FlatVertices(linkage).linear
         had = set()
