@@ -17,12 +17,13 @@ import numpy as np
 
 from graphs.edit.named import known, link_named
 from graphs.errors import InvariantError, numbered, shown
-from graphs.mechanism.surfaces import Cylinder, surface_json
+from graphs.mechanism.surfaces import Cylinder, Surface, surface_json
 from graphs.printing import Block, TableBlock, plain
 from graphs.tolerances import DOUBLE, signed
 from graphs.types import Flags, Floats, JointId, LinkId
 from synth.conformed.behaviours import Way, link_arcs
-from synth.conformed.linkages import OnSurface
+from synth.conformed.linkages import OnSurface, one_on_surface
+from synth.conformed.orders import SurfaceLike
 from synth.conformed.rates import ConformedChain
 from synth.motion.closure import ClosureEquations, Corrected
 from synth.motion.configuration import Configuration
@@ -524,20 +525,22 @@ class SurfaceMotion(Motion):
 
 
 def move_on_surface(
-    on_surface: OnSurface,
+    mechanism: OnSurface | SurfaceLike,
     ground: LinkId | None = None,
     driver: JointId | None = None,
     at: Sequence[float] = (),
     *,
     points: Sequence[LinkPoint] = (),
     axes: Sequence[tuple[LinkId, LinkId]] = (),
+    surface: Surface | None = None,
 ) -> SurfaceMotion:
     """Move a linkage on a cone or a cylinder, of any number of loops and one freedom, from its conformed position.
 
     Parameters
     ----------
-    on_surface : OnSurface
-        With a surface.
+    mechanism : SurfaceLinkage, str, Path, dict, or the result of `realise_on_cone`
+        On one surface: by its steps, or by link angles or lengths; a file of it; a row of `conical_candidates`, with
+        `surface`. An OnSurface of `synth.conformed`, too.
     ground : link id, optional
         The fixed link: by default the chain's own, or the first.
     driver : joint id, optional
@@ -548,11 +551,17 @@ def move_on_surface(
         Points of links to locate at the positions.
     axes : sequence of (link id, link id), optional
         Pairs of links whose instant axes to compute at the positions.
+    surface : Cone or Cylinder, optional
+        For a linkage by its steps, and a row: the surface that it lies on, by default its own. For one by link angles
+        or lengths: which of several surfaces.
 
     Raises
     ------
+    ArgumentError
+        If it is no linkage on a surface.
     UnsolvableError
-        If the surface is not known, or the linkage has not just one freedom at the conformed position.
+        If the surface is not known, or it is one of several, or the linkage has not just one freedom at the
+        conformed position.
     InvariantError
         If the driver is no joint or does not move, a turn is not finite, or a link is none.
 
@@ -564,7 +573,16 @@ def move_on_surface(
     (False, True, '1')
     >>> [round(degrees(sense.limit), 3) for sense in (motion.backward, motion.forward)]
     [-103.923, 5.655]
+
+    A row of `conical_candidates` is laid on a cone, and moves there:
+
+    >>> from synth.candidates.listing import conical_candidates
+    >>> from synth.realisation.on_cone import realise_on_cone
+    >>> row = next(conical_candidates("k1:Cr", slots=7))
+    >>> move_on_surface(realise_on_cone(row)).closed
+    True
     """
+    on_surface = one_on_surface("move_on_surface", mechanism, surface)
     chain, configuration = ConformedChain.of(on_surface.chain, ground), configuration_of(on_surface)
     linkage, closure = configuration.linkage, configuration.closure
     place = _driver(configuration, chain, driver)

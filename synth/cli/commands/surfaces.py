@@ -94,8 +94,8 @@ class LinkageOptions:
         """Return the linkage of a file, or of a row of conical candidates, which lies on any cone or cylinder."""
         from graphs.files.formats import read_linkage
         from synth.cli.reading import read_named
+        from synth.conformed.orders import OrderOnCircle
         from synth.drawing.catalogue import is_catalogue
-        from synth.drawing.mechanisms.chains import OrderOnCircle
 
         if self.row is None and not is_catalogue(file):
             return read_linkage(file)
