@@ -6,7 +6,7 @@ docs/theory/scd-enumeration.md.
 """
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Literal, Unpack, cast
 
 import numpy as np
@@ -361,6 +361,31 @@ def simplest_scd_graph(mechanism: SCGraph, max_degree: int) -> SCDGraph | None:
     scd = next(graphs_of(named, mechanism_from_map_id), None)
     assert scd is None or isinstance(scd, SCDGraph)
     return scd
+
+
+def least_max_degree(mechanism: OneMechanism) -> int | None:
+    """Return the least largest number of sides, at least that of the query, for which a mechanism has an SCD graph.
+
+    None: no SCD graph, with links of any number of sides, meets the query. More sides are never worse, and a corner
+    that has to be opened needs one open edge: so at most one open edge at each joint of a link is enough. Raises
+    UnsolvableError if Burnside's lemma cannot count by what the query limits.
+
+    Examples
+    --------
+    >>> from graphs.loops.loop import Centre, Loop
+    >>> pairs = [(0, 1), (1, 2), (2, 3), (3, 0), (3, 4), (4, 5), (5, 0)]
+    >>> watt = [Loop((0, 1, 2, 3), Centre.INFINITE), Loop((3, 4, 5, 6), Centre.INFINITE)]
+    >>> least_max_degree(mechanism_of(SCGraph(6, pairs, watt), 4))
+    6
+    """
+    code, labels = next(mechanism.source.each())
+    joints = int(np.bincount(outline(code, labels)[1].ravel()).max())  # of the link with the most
+    first = max(mechanism.placements.max_degree, joints)
+    for most in range(first, max(3, 2 * joints) + 1):
+        wider = replace(mechanism, placements=replace(mechanism.placements, max_degree=most))
+        if total_of(scd_count_job(wider, "burnside")):
+            return most
+    return None
 
 
 def _graphs(mechanisms: Mechanisms, workers: int) -> Iterator[SCDGraph]:

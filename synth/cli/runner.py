@@ -103,8 +103,8 @@ def check_method(method: str | None, only_count: bool) -> None:
         raise click.UsageError("--method requires --count")
 
 
-def run_count(job: Job, running: RunOptions) -> None:
-    """Run a job that counts, print the number, and keep the counts in the output, if there is one."""
+def run_count(job: Job, running: RunOptions) -> int:
+    """Run a job that counts, print the number, keep the counts in the output, if there is one; return the number."""
     from enumerate.runner.sinks import CountSink
 
     meter = _Meter.of(running, counting=True)
@@ -116,10 +116,11 @@ def run_count(job: Job, running: RunOptions) -> None:
         print_json({"count": sink.total, **({"by_size": sizes} if sizes else {})})
     else:
         click.echo(sink.total)
+    return sink.total
 
 
-def run_rows(job: Job, running: RunOptions, wrapped: Callable[[Sink], Sink] = lambda sink: sink) -> None:
-    """Run a job and send its rows to a file, a JSON list or a table, by the running.
+def run_rows(job: Job, running: RunOptions, wrapped: Callable[[Sink], Sink] = lambda sink: sink) -> int:
+    """Run a job and send its rows to a file, a JSON list or a table, by the running; return their number.
 
     ``wrapped`` wraps the sink in another that handles the rows before it.
     """
@@ -131,7 +132,7 @@ def run_rows(job: Job, running: RunOptions, wrapped: Callable[[Sink], Sink] = la
         if not running.quiet:
             print_note(numbered(progress.rows, "new row" if running.resume else "row"))
             tell_written(running.output)
-        return
+        return progress.rows
     if running.as_json:
         objects: list[dict[str, Any]] = []
 
@@ -140,10 +141,11 @@ def run_rows(job: Job, running: RunOptions, wrapped: Callable[[Sink], Sink] = la
 
         _run(job, wrapped(RowSink(keep)), running, meter)
         print_json(objects)
-        return
+        return len(objects)
     printer = TablePrinter(job.columns)
-    _run(job, wrapped(RowSink(printer.take)), running, meter)
+    progress = _run(job, wrapped(RowSink(printer.take)), running, meter)
     printer.finish()
+    return progress.rows
 
 
 def _output_of(running: RunOptions, meter: _Meter) -> Sink:
