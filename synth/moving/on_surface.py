@@ -473,7 +473,7 @@ class SurfaceMotion(Motion):
         ground, driver = plain(self.chain.links[0]), plain(self.driver)
         return [
             f"{self.on_surface.surface}, link {ground} fixed, joint {driver} driven",
-            f"range {_side(self.backward)}, {_side(self.forward)}",
+            _range(self.backward, self.forward),
             _circuit(self),
             TableBlock(("link", "backward", "forward"), rows),
             *(_positions(self) if self.positions else []),
@@ -637,12 +637,25 @@ def _sense_json(sense: Sense) -> dict[str, Any]:
     }
 
 
-def _side(sense: Sense) -> str:
-    range_ = f"to {degrees(sense.limit):.10g}° ({sense.ends})"
-    if sense.one_way is None:
-        return range_
-    way, end = sense.one_way
-    return f"{range_}, all links {way.name.lower()} to {degrees(end):.6g}°"
+def _range(backward: Sense, forward: Sense) -> str:
+    """Return the limits of the driving joint, why they are, and the side to which all links keep at first."""
+    ends = f"backward {backward.ends}, forward {forward.ends}"
+    if backward.ends == forward.ends:
+        ends = forward.ends if forward.ends == ROUND else f"{forward.ends} at both ends"
+    line = f"range {_angle(backward.limit)} to {_angle(forward.limit)}; {ends}"
+    for name, sense in (("backward", backward), ("forward", forward)):
+        if sense.one_way is not None:
+            way, end = sense.one_way
+            whole = _angle(end) == _angle(sense.limit)
+            line += f"; {name} all links {_WORDS[way]}" + ("" if whole else f" to {_angle(end)}")
+    return line
+
+
+def _angle(angle: float) -> str:
+    return f"{round(degrees(angle), 2) + 0.0:g}°"
+
+
+_WORDS = {way: "inward and outward" if way is Way.BOTH else way.name.lower() for way in Way}
 
 
 def _circuit(motion: SurfaceMotion) -> str:
@@ -657,15 +670,18 @@ def _circuit(motion: SurfaceMotion) -> str:
 
 
 def _stretches(stretches: tuple[Stretch, ...]) -> str:
-    return ", ".join(f"{each.way.name.lower()} to {degrees(each.end):.6g}" for each in stretches)
+    """Return the ways of a link in turn; the last stretch ends where the joint does, which stands above."""
+    *before, last = stretches
+    return "".join(f"{_WORDS[each.way]} to {_angle(each.end)}, then " for each in before) + _WORDS[last.way]
 
 
 def _positions(motion: SurfaceMotion) -> list[Block]:
-    joints = motion.joints
-    heads = ("at", *(f"joint {joint}" for joint in joints), "without turning back")
+    place = motion.joints.index(motion.driver)  # whose angle is the input
+    heads = ("at", *(f"joint {joint}" for joint in motion.joints if joint != motion.driver), "without turning back")
     rows = []
     for each in motion.positions:
-        angles = [f"{degrees(turn):.8g}" for turn in each.angles]
+        others = np.delete(each.angles, place)
+        angles = [f"{0.0 if abs(turn) < DOUBLE.same_configuration else degrees(turn):.8g}" for turn in others]
         rows.append((f"{degrees(each.at):g}", *angles, "yes" if each.direct else "no"))
     inputs = {each.at for each in motion.positions}
     reached = f"{numbered(len(rows), 'configuration')} at {numbered(len(inputs), 'input angle')} within the range"

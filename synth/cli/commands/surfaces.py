@@ -177,7 +177,11 @@ def linkage_options(kind: Kind, *, arcs: bool = True) -> Callable[[_Command], _C
     return decorated
 
 
-_GROUND = options.value("--ground", "LINK", "Fixed link. By default the first (1), or the one that FILE names.")
+_GROUND = options.value(
+    "--ground",
+    "LINK",
+    "Fixed link. By default the ground link or the first link of FILE; links of a loop by sizes or steps are 1, 2, ...",
+)
 
 
 @dataclass(frozen=True)
