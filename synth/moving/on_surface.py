@@ -37,40 +37,7 @@ from synth.motion.walk.step import Step
 from synth.motion.walk.walking import Event, Walk
 from synth.moving.arcs import heights_about, heights_over
 from synth.moving.made import configuration_of
-
-BACK, ROUND = "turns back", "turns all round"
-"""Why a driving joint goes no further."""
-
-
-@dataclass(frozen=True, slots=True)
-class Stretch:
-    """The side of the surface that a link keeps to, up to a turn of the driving joint from the start, radians."""
-
-    way: Way
-    end: float
-
-
-@dataclass(frozen=True, slots=True)
-class Sense:
-    """One sense of the driving joint from the conformed position: its limit, and where links lie on the way.
-
-    The limit is in radians, negative where the joint turns backward; `ends` says why there: ``turns back``,
-    ``turns all round`` (the conformed position again), or why the curve could not be followed. `ways` has the
-    stretches of each link.
-    """
-
-    limit: float
-    ends: str
-    ways: dict[LinkId, tuple[Stretch, ...]]
-
-    @property
-    def one_way(self) -> tuple[Way, float] | None:
-        """The side of the surface that all moving links keep to from the beginning, and up to which turn."""
-        moving = [each for each in self.ways.values() if each[0].way != Way.STILL]
-        begin = {each[0].way for each in moving}
-        if len(begin) != 1 or not begin <= {Way.INWARD, Way.OUTWARD}:
-            return None
-        return begin.pop(), min((each[0].end for each in moving), key=abs)
+from synth.moving.senses import BACK, ROUND, Sense, Stretch, range_line, sense_json, stretches_text
 
 
 @dataclass(frozen=True, slots=True)
@@ -467,13 +434,13 @@ class SurfaceMotion(Motion):
     def blocks(self) -> list[Block]:
         """Return the lines and tables that are printed."""
         rows = [
-            (plain(link), _stretches(self.backward.ways[link]), _stretches(self.forward.ways[link]))
+            (plain(link), stretches_text(self.backward.ways[link]), stretches_text(self.forward.ways[link]))
             for link in self.chain.links[1:]
         ]
         ground, driver = plain(self.chain.links[0]), plain(self.driver)
         return [
             f"{self.on_surface.surface}, link {ground} fixed, joint {driver} driven",
-            _range(self.backward, self.forward),
+            range_line(self.backward, self.forward),
             _circuit(self),
             TableBlock(("link", "backward", "forward"), rows),
             *(_positions(self) if self.positions else []),
@@ -494,8 +461,8 @@ class SurfaceMotion(Motion):
             "driver": str(self.driver),
             "range_deg": [degrees(self.backward.limit), degrees(self.forward.limit)],
             "turns_fully": self.turns_fully,
-            "backward": _sense_json(self.backward),
-            "forward": _sense_json(self.forward),
+            "backward": sense_json(self.backward),
+            "forward": sense_json(self.forward),
             "closed": self.closed,
             "turns": {str(joint): turns for joint, turns in self.turns.items()},
             "meets_deg": list(map(degrees, self.meets)),
@@ -624,40 +591,6 @@ def _driver(configuration: Configuration, chain: ConformedChain, driver: JointId
     return drivers[0]
 
 
-def _sense_json(sense: Sense) -> dict[str, Any]:
-    keeps = sense.one_way
-    return {
-        "limit_deg": degrees(sense.limit),
-        "ends": sense.ends,
-        "one_way": None if keeps is None else {"way": keeps[0].name.lower(), "to_deg": degrees(keeps[1])},
-        "links": {
-            str(link): [{"way": each.way.name.lower(), "to_deg": degrees(each.end)} for each in stretches]
-            for link, stretches in sense.ways.items()
-        },
-    }
-
-
-def _range(backward: Sense, forward: Sense) -> str:
-    """Return the limits of the driving joint, why they are, and the side to which all links keep at first."""
-    ends = f"backward {backward.ends}, forward {forward.ends}"
-    if backward.ends == forward.ends:
-        ends = forward.ends if forward.ends == ROUND else f"{forward.ends} at both ends"
-    line = f"range {_angle(backward.limit)} to {_angle(forward.limit)}; {ends}"
-    for name, sense in (("backward", backward), ("forward", forward)):
-        if sense.one_way is not None:
-            way, end = sense.one_way
-            whole = _angle(end) == _angle(sense.limit)
-            line += f"; {name} all links {_WORDS[way]}" + ("" if whole else f" to {_angle(end)}")
-    return line
-
-
-def _angle(angle: float) -> str:
-    return f"{round(degrees(angle), 2) + 0.0:g}°"
-
-
-_WORDS = {way: "inward and outward" if way is Way.BOTH else way.name.lower() for way in Way}
-
-
 def _circuit(motion: SurfaceMotion) -> str:
     if not motion.closed:
         return f"circuit not traced to its end: {motion.path.stopped}"
@@ -667,12 +600,6 @@ def _circuit(motion: SurfaceMotion) -> str:
     if motion.meets:
         line += "; another circuit meets it at " + ", ".join(f"{degrees(turn):.6g}°" for turn in motion.meets)
     return line
-
-
-def _stretches(stretches: tuple[Stretch, ...]) -> str:
-    """Return the ways of a link in turn; the last stretch ends where the joint does, which stands above."""
-    *before, last = stretches
-    return "".join(f"{_WORDS[each.way]} to {_angle(each.end)}, then " for each in before) + _WORDS[last.way]
 
 
 def _positions(motion: SurfaceMotion) -> list[Block]:
