@@ -25,6 +25,7 @@ import numpy as np
 from enumerate.contracted.binary_links import orbits_of
 from enumerate.runner.job import Column, ListColumn, Row, RowCount, Unit, batches
 from enumerate.runner.running import rows_of
+from graphs.arguments import keywords_checked
 from graphs.convert.table import graph_of
 from graphs.edit.edits import Edit, add_loop
 from graphs.errors import InvariantError
@@ -91,6 +92,7 @@ class Addendum:
         return f"<Addendum: {self.kind} on {self.ends[0]!r} and {self.ends[1]!r}, M = {self.mobility}>"
 
 
+@keywords_checked
 def addenda(mechanism: MechanismLike, delta_dof: int = 0, *, workers: int = 1) -> Iterator[Addendum]:
     """Yield every addendum that changes the mobility of a mechanism by a number, one of each orbit.
 

@@ -1,5 +1,6 @@
 """docs/thesis-terms.md: every command in it runs, every function is found, and no command lacks one."""
 
+import math
 import re
 import shlex
 import subprocess
@@ -50,6 +51,21 @@ def test_a_command_of_the_page_runs(command, tmp_path, monkeypatch):
     if "conical.jsonl --row" in command:
         run(*shlex.split(next(re.finditer(r"`synth (.*-o conical.jsonl)`", TERMS))[1]))
     run(*shlex.split(command))
+
+
+def test_calls_of_the_page_connect(monkeypatch):
+    """In order, in one Python, with numbers that their commands agree with."""
+    import synth
+
+    monkeypatch.chdir(ROOT)
+    calls = re.findall(r"\| `((?:row = )?(?:next\()?synth\.[^`]*\))` \|", TERMS)
+    assert len(calls) == 5
+    space = {"synth": synth, "math": math}
+    results = [exec(call, space) if "row =" in call else eval(call, space) for call in calls]
+    counted = run("enumerate", "scd", "--of", "data/wiener/watt.json", "--count").stdout
+    assert len(list(results[0])) == int(counted)
+    kinds = [type(result).__name__ for result in results[1:]]
+    assert kinds == ["ConeRealisation", "NoneType", "SurfaceMotion", "SurfaceMotion"]
 
 
 def lines_of(text):

@@ -12,7 +12,7 @@ VERBS = {
     "mobility": {}, "identify": {}, "reconstruct": {}, "reduce": {}, "convert": {"kind": "sc"}, "write": {"path": "a.json"},
     "draw": {}, "fold": {}, "move": {}, "positions": {"drive": {}}, "explain": {}, "states": {}, "advise": {"freedoms": 1},
     "layers": {},
-    "realise": {}, "realise_on_cone": {}, "map_linkage": {},
+    "realise": {}, "realise_on_cone": {}, "map_linkage": {}, "move_on_surface": {}, "surface_behaviours": {},
 }  # fmt: skip
 """The functions that take a mechanism, and what else they need."""
 

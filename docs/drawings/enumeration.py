@@ -24,8 +24,9 @@ from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.types import LinkId
 from synth.atlas.building import AtlasPlan, build_atlas
+from synth.conformed.orders import OrderOnCircle
 from synth.drawing import Scene
-from synth.drawing.mechanisms.chains import ChainLook, OrderOnCircle, chain_scene
+from synth.drawing.mechanisms.chains import ChainLook, chain_scene
 from synth.drawing.scene.frame import PictureOptions
 from synth.drawing.scene.shapes import NORMAL, STRONG, Disc, Layer, Line, Point, Polygon, Shape
 

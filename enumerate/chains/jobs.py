@@ -27,6 +27,7 @@ from enumerate.contracted.graphs import contracted_graphs, cubic_graphs, descend
 from enumerate.machine_code.weights import CHAIN, placing
 from enumerate.runner import job
 from enumerate.runner.running import graphs_of, rows_of, total_of
+from graphs.arguments import keywords_checked
 from graphs.errors import UnsolvableError
 from graphs.identity.chains import chain_from_id
 from graphs.types import Bytes, Ints
@@ -338,6 +339,7 @@ class ChainGraph(nx.Graph):
     """
 
 
+@keywords_checked
 def chains(links: int, dof: int, *, workers: int = 1, **options: Unpack[ChainOptions]) -> Iterator[ChainGraph]:
     """Yield all kinematic chains of N links and M degrees of freedom, in a fixed order.
 
@@ -367,6 +369,7 @@ def chains(links: int, dof: int, *, workers: int = 1, **options: Unpack[ChainOpt
     yield from graphs_of(rows, lambda code: ChainGraph(chain_from_id(code)))
 
 
+@keywords_checked
 def chain_rows(links: int, dof: int, *, workers: int = 1, **options: Unpack[ChainOptions]) -> Iterator[dict[str, Any]]:
     """Yield a dictionary for each kinematic chain, or inversion, or choice of inputs.
 
@@ -388,6 +391,7 @@ def chain_rows(links: int, dof: int, *, workers: int = 1, **options: Unpack[Chai
     yield from rows_of(ChainJob(ChainQuery(links, dof, **options)), workers=workers)
 
 
+@keywords_checked
 def count_chains(
     links: int,
     dof: int,

@@ -30,6 +30,7 @@ from enumerate.runner import job
 from enumerate.runner.running import graphs_of, rows_of, total_of
 from enumerate.sc import listing
 from enumerate.sc.query import SCOptions, SCQuery
+from graphs.arguments import keywords_checked
 from graphs.errors import UnsolvableError
 from graphs.identity.drawings import map_text, mechanism_from_map_id
 from graphs.mechanism.sc import SCGraph
@@ -349,6 +350,7 @@ class FormJob(job.QueryJob[SCQuery]):
         return rows
 
 
+@keywords_checked
 def sc_graphs(links: int, dof: int, *, workers: int = 1, **options: Unpack[SCOptions]) -> Iterator[SCGraph]:
     """Yield all SC graphs of N links and M degrees of freedom, in a fixed order.
 
@@ -375,6 +377,7 @@ def sc_graphs(links: int, dof: int, *, workers: int = 1, **options: Unpack[SCOpt
     yield from graphs_of(sc_rows(links, dof, workers=workers, **options), mechanism_from_map_id)
 
 
+@keywords_checked
 def sc_rows(links: int, dof: int, *, workers: int = 1, **options: Unpack[SCOptions]) -> Iterator[dict[str, Any]]:
     """Yield a dictionary for each SC graph.
 
@@ -397,6 +400,7 @@ def sc_rows(links: int, dof: int, *, workers: int = 1, **options: Unpack[SCOptio
     yield from rows_of(SCJob(SCQuery(links, dof, **options)), workers=workers)
 
 
+@keywords_checked
 def count_sc_graphs(
     links: int,
     dof: int,

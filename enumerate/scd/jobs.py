@@ -6,8 +6,8 @@ docs/theory/scd-enumeration.md.
 """
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
-from typing import Any, Literal, Unpack
+from dataclasses import dataclass, replace
+from typing import Any, Literal, Unpack, cast
 
 import numpy as np
 
@@ -31,8 +31,11 @@ from enumerate.scd.query import (
     SCDQuery,
     Source,
 )
+from graphs.arguments import keywords_checked
+from graphs.convert.table import graph_of
 from graphs.count.report import mobility_report
-from graphs.errors import InvariantError, UnsolvableError, numbered
+from graphs.errors import ArgumentError, InvariantError, UnsolvableError, numbered
+from graphs.files.accepted import MechanismLike, mechanism_for
 from graphs.identity.drawings import map_code, map_id, mechanism_from_map_id
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
@@ -269,31 +272,49 @@ def scd_count_job(mechanisms: Mechanisms, method: str | None = None) -> SCDCount
     return SCDCountJob(mechanisms, method or ("burnside" if counted else "orbits"))
 
 
+@keywords_checked
 def scd_graphs(
-    links: int, dof: int, max_degree: int, *, workers: int = 1, **options: Unpack[SCDOptions]
+    links: int | None = None,
+    dof: int | None = None,
+    max_degree: int = 4,
+    *,
+    of: MechanismLike | None = None,
+    workers: int = 1,
+    **options: Unpack[SCDOptions],
 ) -> Iterator[SCDGraph]:
-    """Yield all SCD graphs of N links and M degrees of freedom, with their `scd_rows` as attributes, in order.
+    """Yield all SCD graphs of N links and M degrees of freedom, or of a mechanism, with their `scd_rows` as attributes.
 
     Parameters
     ----------
-    links, dof : int
-        With M = N - 1 open chains, else as for `enumerate.sc.jobs.sc_graphs`.
-    max_degree : int
+    links, dof : int, optional
+        With M = N - 1 open chains, else as for `enumerate.sc.jobs.sc_graphs`; M is 1 by default.
+    max_degree : int, optional
         The most sides of a link.
+    of : Mechanism, str or Path, optional
+        In place of links: a mechanism, its file or id, whose SC graph is taken, as for `mechanism_of`. If it was a
+        bare chain, its centres are assumed, as its `notes` say, and decide M.
     workers : int
         Processes.
     **options
         Other fields of `PlacementQuery` and `SCDQuery`, with their errors: ``sheets``, ``symmetric``,
-        ``vertices``, ``spatial``, ``infinite``.
+        ``vertices``, ``spatial``, ``infinite``; the last two with links only.
+
+    Raises
+    ------
+    ArgumentError
+        If there are neither links nor a mechanism, or both.
 
     Examples
     --------
     >>> [scd.counts.vertices for scd in scd_graphs(4, 1, 4)]
     [8, 5, 6, 7, 7, 8, 9]
+    >>> len(list(scd_graphs(of="k1:Cr")))
+    7
     """
-    yield from _graphs(all_mechanisms(links, dof, max_degree, **options), workers)
+    return _graphs(_source("scd_graphs", links, dof, max_degree, of, options), workers)
 
 
+@keywords_checked
 def scd_graphs_of(
     mechanism: SCGraph, max_degree: int, *, workers: int = 1, **options: Unpack[PlacementOptions]
 ) -> Iterator[SCDGraph]:
@@ -342,12 +363,38 @@ def simplest_scd_graph(mechanism: SCGraph, max_degree: int) -> SCDGraph | None:
     return scd
 
 
+def least_max_degree(mechanism: OneMechanism) -> int | None:
+    """Return the least largest number of sides, at least that of the query, for which a mechanism has an SCD graph.
+
+    None: no SCD graph, with links of any number of sides, meets the query. More sides are never worse, and a corner
+    that has to be opened needs one open edge: so at most one open edge at each joint of a link is enough. Raises
+    UnsolvableError if Burnside's lemma cannot count by what the query limits.
+
+    Examples
+    --------
+    >>> from graphs.loops.loop import Centre, Loop
+    >>> pairs = [(0, 1), (1, 2), (2, 3), (3, 0), (3, 4), (4, 5), (5, 0)]
+    >>> watt = [Loop((0, 1, 2, 3), Centre.INFINITE), Loop((3, 4, 5, 6), Centre.INFINITE)]
+    >>> least_max_degree(mechanism_of(SCGraph(6, pairs, watt), 4))
+    6
+    """
+    code, labels = next(mechanism.source.each())
+    joints = int(np.bincount(outline(code, labels)[1].ravel()).max())  # of the link with the most
+    first = max(mechanism.placements.max_degree, joints)
+    for most in range(first, max(3, 2 * joints) + 1):
+        wider = replace(mechanism, placements=replace(mechanism.placements, max_degree=most))
+        if total_of(scd_count_job(wider, "burnside")):
+            return most
+    return None
+
+
 def _graphs(mechanisms: Mechanisms, workers: int) -> Iterator[SCDGraph]:
     for scd in graphs_of(rows_of(SCDJob(mechanisms), workers=workers), mechanism_from_map_id):
         assert isinstance(scd, SCDGraph)
         yield scd
 
 
+@keywords_checked
 def scd_rows(
     links: int, dof: int, max_degree: int, *, workers: int = 1, **options: Unpack[SCDOptions]
 ) -> Iterator[dict[str, Any]]:
@@ -372,20 +419,22 @@ def scd_rows(
     yield from rows_of(SCDJob(all_mechanisms(links, dof, max_degree, **options)), workers=workers)
 
 
+@keywords_checked
 def count_scd_graphs(
-    links: int,
-    dof: int,
-    max_degree: int,
+    links: int | None = None,
+    dof: int | None = None,
+    max_degree: int = 4,
     method: Literal["burnside", "orbits"] | None = None,
     *,
+    of: MechanismLike | None = None,
     workers: int = 1,
     **options: Unpack[SCDOptions],
 ) -> int:
-    """Return the number of SCD graphs of N links and M degrees of freedom.
+    """Return the number of SCD graphs of N links and M degrees of freedom, or of a mechanism.
 
     Parameters
     ----------
-    links, dof, max_degree, **options
+    links, dof, max_degree, of, **options
         As for `scd_graphs`.
     method : {"burnside", "orbits"}, optional
         Two ways: ``orbits`` makes every placement and compares it with its images, ``burnside`` makes none.
@@ -398,7 +447,26 @@ def count_scd_graphs(
     >>> [count_scd_graphs(links, 1, 3) for links in (4, 6, 8)]
     [1, 1, 2]
     """
-    return total_of(scd_count_job(all_mechanisms(links, dof, max_degree, **options), method), workers=workers)
+    mechanisms = _source("count_scd_graphs", links, dof, max_degree, of, options)
+    return total_of(scd_count_job(mechanisms, method), workers=workers)
+
+
+def _source(
+    verb: str, links: int | None, dof: int | None, max_degree: int, of: MechanismLike | None, options: SCDOptions
+) -> Mechanisms:
+    """Return the mechanisms that a verb was called with: those of a size, or one."""
+    if (links is None) == (of is None):
+        raise ArgumentError(
+            f"{verb}: {'neither links nor' if of is None else 'both links and'} of; expected one of them"
+        )
+    if of is None:
+        assert links is not None
+        return all_mechanisms(links, 1 if dof is None else dof, max_degree, **options)
+    of_a_size = {"dof": dof, "spatial": options.pop("spatial", 0) or None, "infinite": options.pop("infinite", False)}
+    excluded = [name for name, value in of_a_size.items() if value is not None and value is not False]
+    if excluded:
+        raise ArgumentError(f"{verb}: {', '.join(excluded)} with of; expected links in place of it")
+    return mechanism_of(graph_of(mechanism_for(verb, of)), max_degree, **cast("PlacementOptions", options))
 
 
 def all_mechanisms(

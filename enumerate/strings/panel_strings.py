@@ -15,6 +15,7 @@ from functools import cached_property
 from itertools import product
 from math import comb
 
+from graphs.arguments import keywords_checked
 from graphs.errors import InvariantError, numbered, shown
 from graphs.mechanism.drawing import Side
 from graphs.mechanism.scd import SCDGraph
@@ -236,6 +237,7 @@ def joint_chain(text: str) -> ChainString:
     return ChainString(tuple(sizes[letter] for letter in text))
 
 
+@keywords_checked
 def strings(
     creases: int, *, max_panels: int | None = MAX_PANELS, max_cluster: int | None = MAX_CLUSTER
 ) -> Iterator[ChainString]:
@@ -265,6 +267,7 @@ def strings(
                 yield ChainString(clusters)
 
 
+@keywords_checked
 def count_strings(creases: int, *, max_panels: int | None = MAX_PANELS, max_cluster: int | None = MAX_CLUSTER) -> int:
     """Return the number of strings by generating functions, without listing them.
 

@@ -9,7 +9,7 @@ from math import degrees, inf, radians
 from pathlib import Path
 from typing import Any
 
-from graphs.errors import FileError, UnsolvableError, numbered, shown
+from graphs.errors import FileError, UnsolvableError, shown
 from graphs.files.text import Checker, json_text, load_json
 from graphs.joints.linkage import JointedLinkage, JointKind, JointPlace, kind_named
 from graphs.loops.loop import Centre, Loop
@@ -71,7 +71,6 @@ _SC_KEYS = ("ground", "closing", "special")
 
 def read_sc(value: Mapping[str, Any], check: Checker) -> SCGraph:
     """Read an SC graph from its document."""
-    _require_loops(value, check)
     check.mapping(value, "", _CHAIN_KEYS, _SC_KEYS)
     parts = _ScParts(value, check)
     return check.build(lambda: SCGraph(**parts.arguments()), parts.place_of)
@@ -79,7 +78,6 @@ def read_sc(value: Mapping[str, Any], check: Checker) -> SCGraph:
 
 def read_scd(value: Mapping[str, Any], check: Checker) -> SCDGraph:
     """Read an SCD graph from its document."""
-    _require_loops(value, check)
     check.mapping(value, "", (*_CHAIN_KEYS, "rotation"), (*_SC_KEYS, "outer"))
     parts = _ScParts(value, check)
     if not isinstance(value["rotation"], dict):
@@ -91,19 +89,14 @@ def read_scd(value: Mapping[str, Any], check: Checker) -> SCDGraph:
         if text not in of_text:
             raise FileError(check.path, place, f"{shown(text)} is no link", "the links")
         rotation[of_text[text]] = [
-            None if side is None else check.name(side, at, "a joint id, or null for an open edge")
+            None if side is None else parts.joint(side, at, "a joint id, or null for an open edge")
             for at, side in check.items(sides, place, "a list of sides")
         ]
     outer = None
     if "outer" in value:
         face = check.mapping(value["outer"], "outer", ("joint", "side"))
-        outer = (check.name(face["joint"], "outer.joint"), check.text(face["side"], "outer.side"))
+        outer = (parts.joint(face["joint"], "outer.joint"), check.text(face["side"], "outer.side"))
     return check.build(lambda: SCDGraph(**parts.arguments(), rotation=rotation, outer=outer), parts.place_of)
-
-
-def _require_loops(value: Mapping[str, Any], check: Checker) -> None:
-    if "loops" not in value:
-        raise FileError(check.path, "", "key 'loops' is missing", 'a list of loops; a tree has none, "loops": []')
 
 
 class _ScParts:
@@ -116,6 +109,7 @@ class _ScParts:
         self.loops = self._loops(value["loops"], "loops")
         self.closing = self._loops(value.get("closing", []), "closing")
         self.ground = check.name(value["ground"], "ground", "a link") if "ground" in value else None
+        check.counted(self.ground, "ground", self.links, "link")
         self.special = self._special(value["special"]) if "special" in value else None
         self.index = {joint: i for i, joint in enumerate(self.joints)}
 
@@ -144,28 +138,23 @@ class _ScParts:
                 raise FileError(self.check.path, place, f"the id {shown(joint)} occurs twice", "distinct ids")
             first, second = (self.check.name(end, f"{place}[{k}]", "a link") for k, end in enumerate(pair))
             joints[joint] = (first, second)
-            if self.links == list(range(len(self.links))):
-                self._count_from_0(place, (first, second))
+            for k, end in enumerate((first, second)):
+                self.check.counted(end, f"{place}[{k}]", self.links, "link")
         return joints
 
-    def _count_from_0(self, place: str, ends: tuple[LinkId, LinkId]) -> None:
-        """Refuse a link beyond those that are counted, as of a file whose links count from 1."""
-        for k, end in enumerate(ends):
-            if isinstance(end, int) and not 0 <= end < len(self.links):
-                offender = f"link {shown(end)} of {numbered(len(self.links), 'link')}"
-                expected = f"a link from 0 to {len(self.links) - 1}: links count from 0"
-                raise FileError(self.check.path, f"{place}[{k}]", offender, expected)
+    def joint(self, value: Any, place: str, what: str = "a joint id") -> str | int:
+        """Read the id of a joint; refuse a number beyond those that are counted."""
+        joint = self.check.name(value, place, what)
+        self.check.counted(joint, place, list(self.joints), "joint")
+        return joint
 
     def _loops(self, value: Any, key: str) -> list[Loop]:
         return [self._loop(item, place) for place, item in self.check.items(value, key, "a list of loops")]
 
     def _loop(self, item: Any, place: str) -> Loop:
-        if isinstance(item, dict) and "centre" not in item:
-            expected = '"centre": "finite", "infinite" (planar) or "none" (spatial)'
-            raise FileError(self.check.path, place, "key 'centre' is missing", expected)
         self.check.mapping(item, place, ("joints", "centre"), ("name", "at"))
         around = self.check.items(item["joints"], f"{place}.joints", "a list of joint ids")
-        ids = tuple(self.check.name(joint, at, "a joint id") for at, joint in around)
+        ids = tuple(self.joint(joint, at) for at, joint in around)
         if item["centre"] not in [centre.value for centre in Centre]:
             self.check.fail(f"{place}.centre", item["centre"], "finite, infinite or none")
         name, centre_at = (self.check.text(item[k], f"{place}.{k}") if k in item else None for k in ("name", "at"))
@@ -228,6 +217,9 @@ def read_polyhedron(value: Mapping[str, Any], check: Checker) -> PolyhedronModel
     )
     vertices, coordinates = _vertices(value["vertices"], check)
     rods = _rods(value["rods"], "rods", check, "a list of rods")
+    for number, rod in enumerate(rods):
+        for k, vertex in enumerate(rod):
+            check.counted(vertex, f"rods[{number}][{k}]", vertices, "vertex")
     centres = [_remote_centre(item, place, check) for place, item in check.items(value.get("centres", []), "centres")]
     scissors = [
         tuple_of(item, place, check, 4, "four vertices")
@@ -407,6 +399,7 @@ def _pairs(value: Any, key: str, chain: SCGraph, check: Checker) -> dict[Pair, f
 def _joint_of(chain: SCGraph, value: Any, place: str, check: Checker) -> JointId:
     """Read the id of a joint of a chain."""
     joint = check.name(value, place, "a joint id")
+    check.counted(joint, place, list(chain.joints), "joint")
     if joint not in chain.joints:
         raise FileError(check.path, place, f"{shown(joint)} is no joint", "a joint id")
     return joint
@@ -593,8 +586,9 @@ def rows_from_document(value: Any, path: Path) -> tuple[str, Rows]:
 
 
 def _check_version(value: Mapping[str, Any], path: Path) -> None:
-    if value.get("version") != VERSION or isinstance(value.get("version"), bool):
-        raise FileError(path, "version", shown(value.get("version")), str(VERSION))
+    Checker(path).mapping(value, "", ["version"], value)
+    if value["version"] != VERSION or isinstance(value["version"], bool):
+        raise FileError(path, "version", shown(value["version"]), str(VERSION))
 
 
 def orientations_document(quaternions: Sequence[Sequence[float]]) -> dict[str, Any]:

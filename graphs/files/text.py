@@ -7,12 +7,13 @@ import json
 import os
 import stat
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from difflib import get_close_matches
 from math import degrees, inf, isfinite, nextafter, radians
 from pathlib import Path
 from typing import Any, NoReturn, TypeVar
 
-from graphs.errors import FileError, InvariantError, OpenError, shown
+from graphs.errors import FileError, InvariantError, OpenError, numbered, shown
 from graphs.files.atomic import reason_of
 from graphs.limits import how_to_raise, most
 
@@ -137,6 +138,17 @@ def in_degrees(angle: float) -> float:
 
 T = TypeVar("T")
 
+_SIMILAR = 0.75
+"""How similar a known key must be for a message to suggest it: centre for center, not format for colour."""
+_MISSING = {
+    "loops": 'a list of loops; a tree has none, "loops": []',
+    "centre": '"centre": "finite", "infinite" (planar) or "none" (spatial)',
+    "version": '"version": 1',
+}
+"""What is expected where a key is missing, if its name does not say it."""
+
+_PLURALS = {"vertex": "vertices"}
+
 
 class Checker:
     """Checks of JSON values; errors name the file and the place."""
@@ -151,17 +163,30 @@ class Checker:
     def mapping(
         self, value: Any, place: str, required: Iterable[str] = (), optional: Iterable[str] = ()
     ) -> Mapping[str, Any]:
-        """Return an object that has the required keys and no unknown ones."""
+        """Return an object that has the required keys and no unknown ones; an error names the nearest known one."""
         if not isinstance(value, dict):
             self.fail(place, value, "an object")
         known = {*required, *optional}
         for key in value:
             if key not in known:
-                raise FileError(self.path, place, f"unknown key {shown(key)}", "only " + ", ".join(sorted(known)))
+                near = get_close_matches(key[:100], known - value.keys(), 1, _SIMILAR)
+                meant = f" (did you mean {near[0]!r}?)" if near else ""
+                raise FileError(
+                    self.path, place, f"unknown key {shown(key)}{meant}", "only " + ", ".join(sorted(known))
+                )
         for key in required:
             if key not in value:
-                raise FileError(self.path, place, f"key {key!r} is missing")
+                raise FileError(self.path, place, f"key {key!r} is missing", _MISSING.get(key, ""))
         return value
+
+    def counted(self, value: object, place: str, names: Sequence[object], what: str) -> None:
+        """Refuse a number beyond those of names that are 0, 1, 2, ..., as of a file that counts them from 1."""
+        numbers = all(type(name) is int and name == i for i, name in enumerate(names))
+        if numbers and isinstance(value, int) and not 0 <= value < len(names):
+            several = _PLURALS.get(what, f"{what}s")
+            offender = f"{what} {shown(value)} of {numbered(len(names), what, several)}"
+            expected = f"a {what} from 0 to {len(names) - 1}: {several} count from 0" if names else f"no {what}"
+            raise FileError(self.path, place, offender, expected)
 
     def list(self, value: Any, place: str, length: int | None = None, what: str = "a list") -> list[Any]:
         """Return a list; of any length unless it is stated."""

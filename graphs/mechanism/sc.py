@@ -142,6 +142,7 @@ class SCGraph(BuiltWhole, nx.MultiGraph):
         special: SpecialGeometry | None = None,
         centres_assumed: bool = False,
     ) -> None:
+        """Build the graph from links, joints and loops, or from a graph of networkx; parameters: see the class."""
         super().__init__()
         source = undirected(links) if isinstance(links, nx.Graph) else None
         if source is not None:
@@ -414,6 +415,7 @@ class SCGraph(BuiltWhole, nx.MultiGraph):
         )
 
     def __repr__(self) -> str:
+        """Return the class and the numbers of links, joints and centres."""
         return f"<{type(self).__name__}: {', '.join(self._features())}>"
 
     def _features(self) -> list[str]:
@@ -427,6 +429,7 @@ class SCGraph(BuiltWhole, nx.MultiGraph):
         ]
 
     def __str__(self) -> str:
+        """Return the short description that is printed."""
         return (
             f"{type(self).__name__} with {len(self)} links, {len(self._joints)} joints, "
             f"{len(self.centred_loops)} centred and {self.spatial_loops} spatial loops"

@@ -292,6 +292,7 @@ class SCDGraph(SCGraph):
         ground: LinkId | None = None,
         special: SpecialGeometry | None = None,
     ) -> None:
+        """Build the graph of an SC graph's parts and the sides of each link; parameters: see the class."""
         super().__init__(links, joints, loops, closing=closing, ground=ground, special=special)
         if isinstance(links, nx.Graph) and rotation is None:
             parts = parts_of(links)

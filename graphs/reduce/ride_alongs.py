@@ -5,7 +5,7 @@ centre; its relative mobility is 0. An *adjunct addendum* is a chain of them. So
 and 4.2.5. Theory: docs/theory/reduction.md.
 """
 
-from collections import defaultdict
+from collections import Counter, defaultdict
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
@@ -17,6 +17,7 @@ from graphs.count.report import mobility_report
 from graphs.edit.edits import counts_as_json
 from graphs.errors import InvariantError, numbered, shown
 from graphs.files.accepted import MechanismLike, mechanism_for
+from graphs.identity.chains import chain_id
 from graphs.identity.leaves import ColouredGraph
 from graphs.identity.numbering import labels_of
 from graphs.loops.loop import Centre
@@ -147,6 +148,8 @@ def _loops_of_classes(work: WorkingGraph, choices: Sequence[_Choice]) -> dict[in
     return loops
 
 
+_MOST_NAMED = 60
+"""Links of the largest mechanism whose id is printed with it: longer ones fill lines."""
 _MOST_SHOWN = 200
 
 
@@ -239,7 +242,7 @@ class Reduction(Printed):
         return [forest.subgraph(sorted(part)).copy() for part in nx.weakly_connected_components(forest)]
 
     def blocks(self) -> list[Block]:
-        """Return the lines that are printed: a tree of steps for each adjunct addendum."""
+        """Return the lines that are printed: the steps of each adjunct addendum in order, and what is left."""
         counts: list[Block] = [
             f"{when:6}  links {len(sc)}, joints {len(sc.joints)}, mobility {mobility_report(sc).mobility}"
             for when, sc in (("before", self.original), ("after", self.graph))
@@ -251,23 +254,38 @@ class Reduction(Printed):
         addenda = numbered(len(chains), "adjunct addendum", "adjunct addenda")
         head = f"{numbered(len(self.steps), 'step')} in {addenda}"
         if len(self.steps) > _MOST_SHOWN:
-            return [*counts, head, f"more than {_MOST_SHOWN} steps: --json (in Python to_json) lists them"]
-        return [*counts, head, *(line for chain in chains for line in self._tree(chain))]
+            more = f"more than {_MOST_SHOWN} steps: --json (in Python to_json) lists them"
+            return [*counts, head, more, self._left()]
+        headed = 1 < len(chains) < len(self.steps)  # addenda of one step each need no heads
+        steps: list[Block] = []
+        for place, chain in enumerate(chains, 1):
+            lines = self._in_order(chain)
+            steps += [f"addendum {place}", *("  " + line for line in lines)] if headed else lines
+        return [*counts, head, *steps, self._left()]
 
-    def _tree(self, chain: nx.DiGraph) -> list[str]:
-        """Draw an adjunct addendum from the mechanism outwards."""
-        (root,) = (step for step in chain if not chain.in_degree(step))
-        lines, waiting = [], [(root, "", "")]
-        while waiting:
-            number, before, under = waiting.pop()
+    def _in_order(self, chain: nx.DiGraph) -> list[str]:
+        """List the steps of an adjunct addendum in their order, each with the later one on whose links it is."""
+        lines = []
+        for number in sorted(chain):
             step = self.steps[number]
             u, v, a, b = map(plain, (*step.removed, *step.onto))
-            lines.append(f"{before}step {number + 1}: links {u}, {v} on {a}, {b}")
-            above = sorted(chain.successors(number), reverse=True)
-            for place, child in enumerate(above):  # the last comes first, and is drawn last
-                corner, beside = ("└── ", "    ") if place == 0 else ("├── ", "│   ")
-                waiting.append((child, under + corner, under + beside))
+            later = "" if step.sits_on is None else f" (sits on step {step.sits_on + 1})"
+            lines.append(f"step {number + 1}: links {u}, {v} on {a}, {b}{later}")
         return lines
+
+    def _left(self) -> str:
+        """Say what is left: its loops by their centres, its links, and the id of its chain unless that is long."""
+        sc = self.graph
+        words = {Centre.FINITE: "spherical", Centre.INFINITE: "planar", Centre.NONE: "spatial"}
+        kinds = Counter(words[loop.centre] for loop in sc.loops if loop.centre is not Centre.NONE)
+        kinds += Counter({"spatial": sc.spatial_loops})
+        links, number = numbered(len(sc), "link"), kinds.total()
+        if number == 1:
+            line = f"one {next(iter(kinds))} loop {'of' if len(sc.joints) == len(sc) else 'and'} {links}"
+        else:
+            listed = ", ".join(f"{count} {kind}" for kind, count in kinds.items())
+            line = f"{number or 'no'} loops{f' ({listed})' if listed else ''}, {links}"
+        return f"left: {line}" + (f", {chain_id(sc)}" if len(sc) <= _MOST_NAMED else "")
 
     def __repr__(self) -> str:
         return f"<Reduction: {self.original!r} to {self.graph!r}, {numbered(len(self.steps), 'step')}>"

@@ -210,6 +210,6 @@ def name_of_id(code: str) -> str | None:
     Examples
     --------
     >>> name_of_id("k1:E`hW"), name_of_id("m1:ab.ac.bde.cfg.dg.ef"), name_of_id("k1:E?")
-    ('Watt chain', 'stephenson', None)
+    ('Watt chain', 'Stephenson six-bar', None)
     """
     return next(filter(None, (name_of_type(kind, code) for kind in ("chain", "sc", "scd"))), None)

@@ -5,6 +5,7 @@ from typing import Literal, TypeAlias
 
 from enumerate.conical.query import ConicalCountJob, links_apart
 from enumerate.runner.running import rows_of, total_of
+from graphs.arguments import keywords_checked
 from graphs.convert.link_joint import sc_from_link_joint_graph
 from graphs.convert.table import Mechanism, graph_of
 from graphs.files.accepted import MechanismLike, mechanism_for
@@ -17,6 +18,7 @@ Grounds: TypeAlias = Sequence[LinkId | None] | Literal["all"] | None
 """Fixed links; "all" for each of those that no symmetry exchanges; None for that of the chain."""
 
 
+@keywords_checked
 def conical_candidates(
     mechanism: MechanismLike,
     *,
@@ -76,6 +78,7 @@ def conical_candidates(
     return iter(rows_of(job, workers=workers))
 
 
+@keywords_checked
 def count_conical_candidates(
     mechanism: MechanismLike,
     *,

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from enumerate.strings import ChainString
     from graphs.convert import Mechanism
     from graphs.files.formats import Entry
-    from synth.drawing.mechanisms.chains import OrderOnCircle
+    from synth.conformed.orders import OrderOnCircle
 
 _LOOKS, _PRECISION, _AT = "synthedra.stated", "synth.precision", "synthedra.at"
 """Keys under which the values of options are kept with the context."""

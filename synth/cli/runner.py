@@ -23,6 +23,8 @@ if TYPE_CHECKING:
 _MOST_IN_TABLE = 1000
 _NAME = "name"
 """The column of names of known types (synth/atlas/named.json), in tables only: rows in files have ids."""
+_ROW = "row"
+"""The column of numbers of rows, from 1, in tables only."""
 _PATIENCE = 1.0
 """Seconds before progress is shown, and between two lines of it."""
 
@@ -103,8 +105,8 @@ def check_method(method: str | None, only_count: bool) -> None:
         raise click.UsageError("--method requires --count")
 
 
-def run_count(job: Job, running: RunOptions) -> None:
-    """Run a job that counts, print the number, and keep the counts in the output, if there is one."""
+def run_count(job: Job, running: RunOptions) -> int:
+    """Run a job that counts, print the number, keep the counts in the output, if there is one; return the number."""
     from enumerate.runner.sinks import CountSink
 
     meter = _Meter.of(running, counting=True)
@@ -116,12 +118,16 @@ def run_count(job: Job, running: RunOptions) -> None:
         print_json({"count": sink.total, **({"by_size": sizes} if sizes else {})})
     else:
         click.echo(sink.total)
+    return sink.total
 
 
-def run_rows(job: Job, running: RunOptions, wrapped: Callable[[Sink], Sink] = lambda sink: sink) -> None:
-    """Run a job and send its rows to a file, a JSON list or a table, by the running.
+def run_rows(
+    job: Job, running: RunOptions, wrapped: Callable[[Sink], Sink] = lambda sink: sink, *, numbered_rows: bool = False
+) -> int:
+    """Run a job and send its rows to a file, a JSON list or a table, by the running; return their number.
 
-    ``wrapped`` wraps the sink in another that handles the rows before it.
+    ``wrapped`` wraps the sink in another that handles the rows before it. Rows of a table have numbers, from 1, as
+    ``--row`` of other commands counts them, with `numbered_rows`.
     """
     from enumerate.runner.sinks import RowSink
 
@@ -131,7 +137,7 @@ def run_rows(job: Job, running: RunOptions, wrapped: Callable[[Sink], Sink] = la
         if not running.quiet:
             print_note(numbered(progress.rows, "new row" if running.resume else "row"))
             tell_written(running.output)
-        return
+        return progress.rows
     if running.as_json:
         objects: list[dict[str, Any]] = []
 
@@ -140,10 +146,11 @@ def run_rows(job: Job, running: RunOptions, wrapped: Callable[[Sink], Sink] = la
 
         _run(job, wrapped(RowSink(keep)), running, meter)
         print_json(objects)
-        return
-    printer = TablePrinter(job.columns)
-    _run(job, wrapped(RowSink(printer.take)), running, meter)
+        return len(objects)
+    printer = TablePrinter(job.columns, numbered_rows=numbered_rows)
+    progress = _run(job, wrapped(RowSink(printer.take)), running, meter)
     printer.finish()
+    return progress.rows
 
 
 def _output_of(running: RunOptions, meter: _Meter) -> Sink:
@@ -251,20 +258,30 @@ def _time(seconds: float) -> str:
 class TablePrinter:
     """Prints a table, or lines with tabs if there are too many rows for one; leaves out columns of files."""
 
-    def __init__(self, columns: Mapping[str, Column]) -> None:
+    def __init__(self, columns: Mapping[str, Column], *, numbered_rows: bool = False) -> None:
         self._shown = [(i, _text_of(columns[column])) for i, column in enumerate(columns) if column != "mechanism"]
         self._columns = [list(columns)[i] for i, _ in self._shown]
         self._numbers = [column for column in self._columns if columns[column] in (int, float)]
         self._id = next((self._columns.index(column) for column in ("code", "chain") if column in self._columns), None)
+        # a column of the job's own with this name is of the chain, the one behind the id of the type
+        self._columns = [f"chain {_NAME}" if column == _NAME else column for column in self._columns]
         if self._id is not None:
             self._columns.insert(self._id + 1, _NAME)
+        self._numbered = numbered_rows
+        if numbered_rows:
+            self._columns.insert(0, _ROW)
+            self._numbers.append(_ROW)
+        self._printed = 0
         self._kept: list[list[str]] = []
         self._streaming = False
 
     def take(self, columns: tuple[str, ...], rows: list[Row]) -> None:
         """Keep rows for the table, or print them."""
         del columns
-        self._kept += [self._named([text(row[i]) for i, text in self._shown]) for row in rows]
+        for row in rows:
+            self._printed += 1
+            cells = self._named([text(row[i]) for i, text in self._shown])
+            self._kept.append([str(self._printed), *cells] if self._numbered else cells)
         if len(self._kept) > _MOST_IN_TABLE or self._streaming:
             if not self._streaming:
                 click.echo("\t".join(self._columns))

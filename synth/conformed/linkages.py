@@ -15,7 +15,6 @@ import numpy as np
 
 from graphs.edit.named import joint_named, link_named
 from graphs.errors import InvariantError, UnsolvableError, numbered, shown
-from graphs.files.accepted import MechanismLike, mechanism_for
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.surfaces import Cone, Cylinder, Surface, SurfaceLinkage, as_planar, ring, surface_json
 from graphs.printing import Block, Printed, TableBlock, plain
@@ -32,6 +31,7 @@ from synth.conformed.behaviours import (
     table_row,
     ways_over,
 )
+from synth.conformed.orders import SurfaceLike, surface_linkage_for
 from synth.conformed.rates import ConformedChain
 from synth.surfaces.circuit import HALF_TURN, azimuths, closing_step, wrapped
 from synth.surfaces.linkages import map_linkage
@@ -364,15 +364,38 @@ def linkage_on_surfaces(
     ]
 
 
+def one_on_surface(verb: str, mechanism: OnSurface | SurfaceLike, surface: Surface | None = None) -> OnSurface:
+    """Return the linkage that a verb was called with on its one surface, or on the chosen one.
+
+    Raise ArgumentError, by the name of the verb, for another object; UnsolvableError if it lies on no surface, or on
+    several and none is chosen.
+    """
+    if isinstance(mechanism, OnSurface):
+        return mechanism if surface is None else replace(mechanism, surface=surface)
+    linkage = surface_linkage_for(verb, mechanism, surface)
+    placed = linkage_on_surfaces(linkage, surface, families=surface is not None)
+    if len(placed) == 1:
+        return placed[0]
+    where = numbered(len(placed), linkage.kind) + "".join(f", {each.surface}" for each in placed)
+    raise UnsolvableError(
+        f"{verb}: the linkage lies on {where}; expected one; try surface=synth.{_AN_EXAMPLE[linkage.kind]}"
+    )
+
+
+_AN_EXAMPLE = {"cone": "Cone(angle in radians)", "cylinder": "Cylinder(radius)"}
+"""How a surface is chosen in Python."""
+
+
 def surface_behaviours(
-    mechanism: MechanismLike, ground: LinkId | None = None, *, surface: Surface | None = None
+    mechanism: SurfaceLike, ground: LinkId | None = None, *, surface: Surface | None = None
 ) -> tuple[LinkageBehaviour, ...]:
     """Return which links leave each surface of a linkage inward, outward, or both ways, to first order.
 
     Parameters
     ----------
-    mechanism : SurfaceLinkage, or the path of its file
-        By its steps, or by link angles or lengths; `InvariantError` for another mechanism.
+    mechanism : SurfaceLinkage, str, Path, dict, or the result of `realise_on_cone`
+        By its steps, or by link angles or lengths; a file of it; a row of `conical_candidates`. `ArgumentError` for
+        another object.
     ground : link id, optional
         The fixed link: by default the linkage's own, or the first.
     surface : Cone or Cylinder, optional
@@ -384,7 +407,7 @@ def surface_behaviours(
     >>> [behaviour.way_of(2) for behaviour in surface_behaviours(linkage)]
     ['both', 'both']
     """
-    linkage = mechanism_for("surface_behaviours", mechanism, SurfaceLinkage)
+    linkage = surface_linkage_for("surface_behaviours", mechanism, surface)
     return tuple(placed.behaviour(ground) for placed in linkage_on_surfaces(linkage, surface))
 
 

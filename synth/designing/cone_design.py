@@ -32,7 +32,8 @@ from synth.designing.poses import Derived, DesignFrame, PosedDesign, stacked
 from synth.designing.problem import DesignProblem
 from synth.designing.search import found_from, seeded
 from synth.designing.wishes import Goal, GoalWish, Wish, WishedConfiguration, Wishes
-from synth.moving.on_surface import Sense, SurfaceMotion, move_on_surface
+from synth.moving.on_surface import SurfaceMotion, move_on_surface
+from synth.moving.senses import Sense
 
 _SLOTS, _LEAST_GAP = 36, 2
 """Places that joints of candidates may have round the axis, and the least distance of two joints."""

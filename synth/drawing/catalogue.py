@@ -8,7 +8,6 @@ import json
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import chain, count, islice
-from math import pi, radians
 from pathlib import Path
 from textwrap import wrap
 from typing import Any, TypeAlias
@@ -18,21 +17,17 @@ from enumerate.runner.job import Limits, row_as_dict
 from enumerate.runner.store import read_meta, read_rows
 from enumerate.strings.panel_strings import ChainString
 from graphs.errors import FileError, InvariantError, SynthedraError, numbered, shown
-from graphs.files.bare import names_from_text
 from graphs.files.formats import is_id, mechanism_of_id, read_all
 from graphs.files.outputs import check_installed, check_writable, write_as
-from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet
+from synth.conformed.orders import Row, order_of_row
 from synth.conformed.rates import loops_of_chain
-from synth.drawing.mechanisms.chains import OrderOnCircle
 from synth.drawing.mechanisms.pictures import draw
 from synth.drawing.scene.shapes import LARGE, Label, Layer, Point, moved, text_width
 from synth.drawing.scene.writing import Pages, Scene
 from synth.exporters import EXPORTERS
 
-Row = Mapping[str, Any]
-"""Column to value."""
 Realise: TypeAlias = Callable[[SCGraph], tuple[Sheet | None, str]]
 """From an SC or SCD graph to its sheet, if there is one, and what there is to say of it: why there is none."""
 
@@ -96,46 +91,6 @@ def _rows_of_parquet(place: Path) -> Iterator[Row]:
         raise FileError(place, "", f"cannot be read: {error.strerror}", "a readable file") from None
 
 
-def _order_of_row(row: Row, chain: SCGraph) -> OrderOnCircle:
-    """Return the order of joints of a row of conical candidates, at its azimuths, or evenly spaced.
-
-    Names of joints and links are those of the file of the chain, which the id does not know: they are read from the
-    loops, and from ``joins``, which older rows do not have. The row has ``order``, ``loops``, and ``azimuths_deg`` or
-    ``slots``: azimuths are in the order of the joints of the chain (that of the row's id), and ``order`` names joints
-    as they follow each other; a point opposite to one has a prime. Raise KeyError, TypeError or ValueError for
-    another row.
-    """
-    # slots go round half a turn where orders name opposite points too; rows of other orders count the layers
-    primed = "azimuths_deg" not in row and "most_layers" not in row
-    turn = pi if primed else 2 * pi
-    if "azimuths_deg" in row:
-        azimuths = [radians(angle) for angle in row["azimuths_deg"]]
-    else:
-        azimuths = [slot * pi / len(row["slots"]) * (1 if primed else 2) for slot in row["slots"]]
-    names = [""] * len(azimuths)
-    ranked = sorted(range(len(azimuths)), key=lambda joint: azimuths[joint] % turn)
-    for joint, name in zip(ranked, row["order"], strict=True):
-        names[joint] = str(name).removesuffix("'") if primed else str(name)
-    place = {name: joint for joint, name in enumerate(names)}
-    pairs = {
-        (min(place[a], place[b]), max(place[a], place[b]))
-        for loop in row["loops"]
-        for a, b in zip(loop, [*loop[1:], loop[0]], strict=True)
-    }
-    return OrderOnCircle(_chain_of_row(row, names) if "joins" in row else chain, names, azimuths, sorted(pairs))
-
-
-def _chain_of_row(row: Row, names: Sequence[str]) -> SCGraph:
-    """Return the chain of a row with the names that joints and links have there, and its independent loops."""
-    joins = {name: (a, b) for name, a, b in row["joins"]}
-    links = names_from_text(sorted({link for ends in joins.values() for link in ends}))
-    joints = {name: (links[joins[name][0]], links[joins[name][1]]) for name in names}
-    independent = len(joints) - len(links) + 1
-    ground = links[row["ground"]] if row["ground"] else None
-    loops = [Loop(tuple(loop)) for loop in row["loops"][:independent]]
-    return SCGraph(sorted(links.values(), key=str), joints, loops, ground=ground)
-
-
 def drawable_of_type(kind: str, code: str) -> Any:
     """Return the mechanism of a type of an atlas, or its order of joints, by its kind and its id there.
 
@@ -162,7 +117,7 @@ def drawable_of_type(kind: str, code: str) -> Any:
     loops = [list(map(str, loop)) for loop in loops_of_chain(mechanism)]
     slots = [order.index(str(joint)) for joint in range(len(order))]
     row = {"order": order, "slots": slots, "loops": loops, "most_layers": None}  # as of a conical candidate
-    return _order_of_row(row, mechanism)
+    return order_of_row(row, mechanism)
 
 
 @dataclass(frozen=True, slots=True)
@@ -256,7 +211,7 @@ def _entry_of_row(place: Path, number: int, row: Row) -> CatalogueEntry:
             mechanism: Any = mechanism_of_id(code)
             if "order" in row:
                 try:
-                    mechanism = _order_of_row(row, mechanism)
+                    mechanism = order_of_row(row, mechanism)
                 except (KeyError, TypeError, ValueError) as error:
                     problem = f"the order of the joints is invalid: {type(error).__name__} {error}"
                     columns = "columns order, loops, and slots or azimuths_deg"

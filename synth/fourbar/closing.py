@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from graphs.errors import InvariantError
+from graphs.errors import ArgumentError, InvariantError
 from graphs.tolerances import DOUBLE
 from graphs.types import Floats
 
@@ -321,7 +321,10 @@ def can_close(angles: npt.ArrayLike) -> npt.NDArray[np.bool_]:
 
 
 def _listed(values: npt.ArrayLike, what: str, links: int | None) -> Floats:
-    numbers = np.asarray(values, dtype=float)
+    try:
+        numbers = np.asarray(values, dtype=float)
+    except (TypeError, ValueError):
+        raise ArgumentError(f"{what}: an object of type {type(values).__name__}; expected a list of numbers") from None
     if numbers.ndim != 1 or len(numbers) < 3 or (links is not None and len(numbers) != links):
         raise InvariantError("loop", f"{numbers.size} {what}", f"{links or 'three or more'} in loop order")
     if not np.isfinite(numbers).all():

@@ -17,12 +17,13 @@ import numpy as np
 
 from graphs.edit.named import known, link_named
 from graphs.errors import InvariantError, numbered, shown
-from graphs.mechanism.surfaces import Cylinder, surface_json
+from graphs.mechanism.surfaces import Cylinder, Surface, surface_json
 from graphs.printing import Block, TableBlock, plain
 from graphs.tolerances import DOUBLE, signed
 from graphs.types import Flags, Floats, JointId, LinkId
 from synth.conformed.behaviours import Way, link_arcs
-from synth.conformed.linkages import OnSurface
+from synth.conformed.linkages import OnSurface, one_on_surface
+from synth.conformed.orders import SurfaceLike
 from synth.conformed.rates import ConformedChain
 from synth.motion.closure import ClosureEquations, Corrected
 from synth.motion.configuration import Configuration
@@ -36,40 +37,7 @@ from synth.motion.walk.step import Step
 from synth.motion.walk.walking import Event, Walk
 from synth.moving.arcs import heights_about, heights_over
 from synth.moving.made import configuration_of
-
-BACK, ROUND = "turns back", "turns all round"
-"""Why a driving joint goes no further."""
-
-
-@dataclass(frozen=True, slots=True)
-class Stretch:
-    """The side of the surface that a link keeps to, up to a turn of the driving joint from the start, radians."""
-
-    way: Way
-    end: float
-
-
-@dataclass(frozen=True, slots=True)
-class Sense:
-    """One sense of the driving joint from the conformed position: its limit, and where links lie on the way.
-
-    The limit is in radians, negative where the joint turns backward; `ends` says why there: ``turns back``,
-    ``turns all round`` (the conformed position again), or why the curve could not be followed. `ways` has the
-    stretches of each link.
-    """
-
-    limit: float
-    ends: str
-    ways: dict[LinkId, tuple[Stretch, ...]]
-
-    @property
-    def one_way(self) -> tuple[Way, float] | None:
-        """The side of the surface that all moving links keep to from the beginning, and up to which turn."""
-        moving = [each for each in self.ways.values() if each[0].way != Way.STILL]
-        begin = {each[0].way for each in moving}
-        if len(begin) != 1 or not begin <= {Way.INWARD, Way.OUTWARD}:
-            return None
-        return begin.pop(), min((each[0].end for each in moving), key=abs)
+from synth.moving.senses import BACK, ROUND, Sense, Stretch, range_line, sense_json, stretches_text
 
 
 @dataclass(frozen=True, slots=True)
@@ -466,13 +434,13 @@ class SurfaceMotion(Motion):
     def blocks(self) -> list[Block]:
         """Return the lines and tables that are printed."""
         rows = [
-            (plain(link), _stretches(self.backward.ways[link]), _stretches(self.forward.ways[link]))
+            (plain(link), stretches_text(self.backward.ways[link]), stretches_text(self.forward.ways[link]))
             for link in self.chain.links[1:]
         ]
         ground, driver = plain(self.chain.links[0]), plain(self.driver)
         return [
             f"{self.on_surface.surface}, link {ground} fixed, joint {driver} driven",
-            f"range {_side(self.backward)}, {_side(self.forward)}",
+            range_line(self.backward, self.forward),
             _circuit(self),
             TableBlock(("link", "backward", "forward"), rows),
             *(_positions(self) if self.positions else []),
@@ -493,8 +461,8 @@ class SurfaceMotion(Motion):
             "driver": str(self.driver),
             "range_deg": [degrees(self.backward.limit), degrees(self.forward.limit)],
             "turns_fully": self.turns_fully,
-            "backward": _sense_json(self.backward),
-            "forward": _sense_json(self.forward),
+            "backward": sense_json(self.backward),
+            "forward": sense_json(self.forward),
             "closed": self.closed,
             "turns": {str(joint): turns for joint, turns in self.turns.items()},
             "meets_deg": list(map(degrees, self.meets)),
@@ -524,20 +492,22 @@ class SurfaceMotion(Motion):
 
 
 def move_on_surface(
-    on_surface: OnSurface,
+    mechanism: OnSurface | SurfaceLike,
     ground: LinkId | None = None,
     driver: JointId | None = None,
     at: Sequence[float] = (),
     *,
     points: Sequence[LinkPoint] = (),
     axes: Sequence[tuple[LinkId, LinkId]] = (),
+    surface: Surface | None = None,
 ) -> SurfaceMotion:
     """Move a linkage on a cone or a cylinder, of any number of loops and one freedom, from its conformed position.
 
     Parameters
     ----------
-    on_surface : OnSurface
-        With a surface.
+    mechanism : SurfaceLinkage, str, Path, dict, or the result of `realise_on_cone`
+        On one surface: by its steps, or by link angles or lengths; a file of it; a row of `conical_candidates`, with
+        `surface`. An OnSurface of `synth.conformed`, too.
     ground : link id, optional
         The fixed link: by default the chain's own, or the first.
     driver : joint id, optional
@@ -548,11 +518,17 @@ def move_on_surface(
         Points of links to locate at the positions.
     axes : sequence of (link id, link id), optional
         Pairs of links whose instant axes to compute at the positions.
+    surface : Cone or Cylinder, optional
+        For a linkage by its steps, and a row: the surface that it lies on, by default its own. For one by link angles
+        or lengths: which of several surfaces.
 
     Raises
     ------
+    ArgumentError
+        If it is no linkage on a surface.
     UnsolvableError
-        If the surface is not known, or the linkage has not just one freedom at the conformed position.
+        If the surface is not known, or it is one of several, or the linkage has not just one freedom at the
+        conformed position.
     InvariantError
         If the driver is no joint or does not move, a turn is not finite, or a link is none.
 
@@ -564,7 +540,16 @@ def move_on_surface(
     (False, True, '1')
     >>> [round(degrees(sense.limit), 3) for sense in (motion.backward, motion.forward)]
     [-103.923, 5.655]
+
+    A row of `conical_candidates` is laid on a cone, and moves there:
+
+    >>> from synth.candidates.listing import conical_candidates
+    >>> from synth.realisation.on_cone import realise_on_cone
+    >>> row = next(conical_candidates("k1:Cr", slots=7))
+    >>> move_on_surface(realise_on_cone(row)).closed
+    True
     """
+    on_surface = one_on_surface("move_on_surface", mechanism, surface)
     chain, configuration = ConformedChain.of(on_surface.chain, ground), configuration_of(on_surface)
     linkage, closure = configuration.linkage, configuration.closure
     place = _driver(configuration, chain, driver)
@@ -606,27 +591,6 @@ def _driver(configuration: Configuration, chain: ConformedChain, driver: JointId
     return drivers[0]
 
 
-def _sense_json(sense: Sense) -> dict[str, Any]:
-    keeps = sense.one_way
-    return {
-        "limit_deg": degrees(sense.limit),
-        "ends": sense.ends,
-        "one_way": None if keeps is None else {"way": keeps[0].name.lower(), "to_deg": degrees(keeps[1])},
-        "links": {
-            str(link): [{"way": each.way.name.lower(), "to_deg": degrees(each.end)} for each in stretches]
-            for link, stretches in sense.ways.items()
-        },
-    }
-
-
-def _side(sense: Sense) -> str:
-    range_ = f"to {degrees(sense.limit):.10g}° ({sense.ends})"
-    if sense.one_way is None:
-        return range_
-    way, end = sense.one_way
-    return f"{range_}, all links {way.name.lower()} to {degrees(end):.6g}°"
-
-
 def _circuit(motion: SurfaceMotion) -> str:
     if not motion.closed:
         return f"circuit not traced to its end: {motion.path.stopped}"
@@ -638,16 +602,13 @@ def _circuit(motion: SurfaceMotion) -> str:
     return line
 
 
-def _stretches(stretches: tuple[Stretch, ...]) -> str:
-    return ", ".join(f"{each.way.name.lower()} to {degrees(each.end):.6g}" for each in stretches)
-
-
 def _positions(motion: SurfaceMotion) -> list[Block]:
-    joints = motion.joints
-    heads = ("at", *(f"joint {joint}" for joint in joints), "without turning back")
+    place = motion.joints.index(motion.driver)  # whose angle is the input
+    heads = ("at", *(f"joint {joint}" for joint in motion.joints if joint != motion.driver), "without turning back")
     rows = []
     for each in motion.positions:
-        angles = [f"{degrees(turn):.8g}" for turn in each.angles]
+        others = np.delete(each.angles, place)
+        angles = [f"{0.0 if abs(turn) < DOUBLE.same_configuration else degrees(turn):.8g}" for turn in others]
         rows.append((f"{degrees(each.at):g}", *angles, "yes" if each.direct else "no"))
     inputs = {each.at for each in motion.positions}
     reached = f"{numbered(len(rows), 'configuration')} at {numbered(len(inputs), 'input angle')} within the range"

@@ -22,8 +22,8 @@ from graphs.identity.drawings import map_id
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
 from graphs.mechanism.sheet import Sheet
+from synth.conformed.orders import OrderOnCircle
 from synth.drawing.catalogue import CatalogueEntry, catalogue_entries
-from synth.drawing.mechanisms.chains import OrderOnCircle
 from synth.realisation.realised import NotFoundError, realise
 
 

@@ -3,8 +3,9 @@
 Theory: docs/theory/realisation.md, docs/theory/multiloop.md.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import islice
 from math import degrees, isfinite, pi, radians
 from typing import Any
 
@@ -20,6 +21,7 @@ from graphs.printing import Block, Printed, TableBlock, plain
 from graphs.rank.exact import exact_mobility
 from graphs.tolerances import DOUBLE
 from graphs.types import Floats
+from synth.conformed.orders import Row, candidate_for
 from synth.conformed.rates import ConformedChain, first_order
 from synth.moving.made import configuration_of
 from synth.realisation.measures import first_order_freedoms
@@ -139,14 +141,15 @@ class ConeRealisation(Printed):
 
 
 def realise_on_cone(
-    mechanism: MechanismLike, *, cone_angle: float = CONE_ANGLE, seed: int = 0, tries: int = 12
+    mechanism: MechanismLike | Row, *, cone_angle: float = CONE_ANGLE, seed: int = 0, tries: int = 12
 ) -> ConeRealisation:
     """Lay the joint axes of a type with one centre round a right cone.
 
     Parameters
     ----------
-    mechanism : anything that has an SC graph
-        All its loops have one finite centre.
+    mechanism : anything that has an SC graph, or dict
+        All its loops have one finite centre. A row of `conical_candidates`, or of a list of them in JSON lines, is
+        laid in its own order of joints, as `realise_candidate` does.
     cone_angle : float, optional
         lambda, the angle between a ruling line and the plane perpendicular to the axis, radians.
     seed : int, optional
@@ -161,6 +164,8 @@ def realise_on_cone(
         If the type has no loop, a spatial one, or not one finite centre.
     InvariantError
         If an option is out of its range.
+    ArgumentError
+        If it is neither a mechanism nor a row of conical candidates.
 
     Examples
     --------
@@ -169,6 +174,9 @@ def realise_on_cone(
     >>> on_cone.circuits, on_cone.freedoms, len(on_cone.arcs)
     (('open',), 1, 4)
     """
+    if isinstance(mechanism, Mapping):
+        order = candidate_for("realise_on_cone", mechanism)
+        return realise_candidate(order.chain, order.azimuths, cone_angle=cone_angle, seed=seed, tries=tries)
     mechanism = mechanism_for("realise_on_cone", mechanism)
     _check_cone(cone_angle, seed, tries)
     chain = _about_one_centre(to_sc(mechanism))
@@ -180,6 +188,8 @@ def realise_candidate(
     chain: SCGraph, azimuths: Sequence[float], *, cone_angle: float = CONE_ANGLE, seed: int = 0, tries: int = 12
 ) -> ConeRealisation:
     """Lay a conical candidate round a right cone: at its azimuths if it moves there, else near them, in their order.
+
+    It is laid near them, too, if its arcs do not determine the cone: those of a kite lie on all cones of an interval.
 
     Parameters
     ----------
@@ -193,15 +203,21 @@ def realise_candidate(
     --------
     >>> from graphs.loops.loop import Loop
     >>> chain = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop((0, 1, 2, 3))])
-    >>> on_cone = realise_candidate(chain, np.radians([0, 90, 180, 270]))  # equal arcs: near them
-    >>> on_cone.number > 0, on_cone.freedoms, on_cone.circuits
-    (True, 1, ('open',))
+    >>> on_cone = realise_candidate(chain, np.radians([0, 90, 180, 270]))
+    >>> on_cone.linkage.places(), on_cone.freedoms, on_cone.circuits
+    ([0.0, 1.5707963267948966, 3.141592653589793, 4.71238898038469], 1, ('open',))
     """
     _check_cone(cone_angle, seed, tries)
     at = np.asarray(azimuths, dtype=float)
     best = _best(chain, iter([at]), cone_angle, tries)
-    if best.freedoms != best.mobility or best.clear <= _CLEAR_ENOUGH:
-        best = _best(chain, _placements_near(at, seed, tries), cone_angle, tries)
+    if best.freedoms == best.mobility and best.clear > _CLEAR_ENOUGH:
+        try:
+            return replace(best, cones=_cones(best.linkage, cone_angle))
+        except UnsolvableError:  # arcs that fold flat, as those of a kite, fit all cones of an interval
+            first = 1
+    else:
+        first = 0
+    best = _best(chain, islice(_placements_near(at, seed, tries), first, None), cone_angle, tries)
     return replace(best, cones=_cones(best.linkage, cone_angle))
 
 

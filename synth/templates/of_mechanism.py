@@ -11,7 +11,7 @@ from graphs.files.accepted import MechanismLike, mechanism_for, with_stated_prec
 from graphs.mechanism.solids import HingedSolids
 from graphs.mechanism.surfaces import Cone, SurfaceLinkage
 from graphs.printing import plain
-from synth.drawing.mechanisms.chains import OrderOnCircle
+from synth.conformed.orders import OrderOnCircle
 from synth.realisation.realised import Kind
 from synth.templates.hinges import Hinges
 from synth.templates.on_surface import TemplateSizes, surface_of, template_on_surface

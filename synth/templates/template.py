@@ -26,7 +26,7 @@ from graphs.mechanism.solids import HingedSolids
 from graphs.mechanism.surfaces import Surface, SurfaceLinkage
 from graphs.types import Floats
 from synth.conformed.linkages import OnSurface, linkage_on_surfaces, surface_of_number
-from synth.drawing.mechanisms.chains import OrderOnCircle
+from synth.conformed.orders import OrderOnCircle
 from synth.drawing.mechanisms.space import folded_scene
 from synth.drawing.scene.frame import PictureOptions
 from synth.drawing.scene.writing import Scene

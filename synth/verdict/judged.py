@@ -581,8 +581,18 @@ def mobility(
 
     Parameters
     ----------
-    mechanism, exact, hinge_flat, pose, geometry
-        As in :func:`graphs.answer.mechanisms.mobility`, which counts. A Configuration is judged where it is.
+    mechanism : Mechanism, str, Path, networkx graph or Configuration
+        A mechanism, its file or id. A plain graph is a link-joint graph: each face of a drawing of it gets a finite
+        centre. A Configuration is judged where it is.
+    exact : bool, optional
+        Find the exact generic rank; by default unless the mechanism is too large.
+    hinge_flat : bool, optional
+        Make hinges of the flat (F) edges of a crease pattern too.
+    pose : int, optional
+        The frame of a FOLD file that all numbers are those of; by default the pattern as it was read, or if that
+        has no coordinates, the first frame that has.
+    geometry : bool, optional
+        Give loops round holes and cuts of a crease pattern the centre where their axes meet or are parallel.
     motion : bool, optional
         Look for the motion of a crease pattern from its configuration; by default unless it is too large.
     precision : float, optional

@@ -102,7 +102,7 @@ def conical(
     surface = options.surface_from_options(cone_angle, radius)
     job = synth.candidates.CandidateJob(chain, grounds, slots, opposites, samples, seed, surface, tuple(filters))
     if not only_count:
-        run_rows(job, running, lambda sink: _around(sink, job, sort, pictures))
+        run_rows(job, running, lambda sink: _around(sink, job, sort, pictures), numbered_rows=True)
         _say_next(running)
     elif filters or samples is not None:
         if method is not None:
@@ -122,6 +122,8 @@ def _say_next(running: RunOptions) -> None:
         return
     file = "FILE.jsonl" if running.output is None else plain(running.output, 4096)
     first = "-o FILE.jsonl, then " if running.output is None else ""
+    if running.output is not None:
+        print_note(f"to see the rows: the same command without -o, or synth draw {file} -o rows.pdf")
     print_note(
         f"to move row K: {first}synth cone move {file} --row K --lambda 30; "
         f"a file of it: synth realise {file} --row K --as cone -o OUT.json"

@@ -297,7 +297,7 @@ def template(
       synth template data/surfaces/fig11-stephenson.json --size 120 -o stephenson.pdf
       synth template types.sqlite --row 7 --size 150 -o seventh.svg
     """
-    from synth.drawing.mechanisms.chains import OrderOnCircle
+    from synth.conformed.orders import OrderOnCircle
     from synth.exporters import EXPORTERS
 
     try:

@@ -204,7 +204,8 @@ def reduce_command(
     """Remove the ride-alongs of a mechanism one by one, until none is left. The mobility does not change.
 
     A ride-along is two binary links u, v on two adjacent links a, b, all four about one centre. Chains of them,
-    adjunct addenda, are shown as trees. The rule "dyad" removes such pairs even if a and b are not adjacent.
+    adjunct addenda, are listed in the order of the steps. The rule "dyad" removes such pairs even if a and b are not
+    adjacent.
 
     The rule "assur" divides a mechanism whose loops have one centre into its Assur groups, given a ground link and
     one input for each degree of freedom, and removes the groups that no other group is attached to.
@@ -227,6 +228,8 @@ def reduce_command(
         lost = () if output is None else synth.write(reduction.graph, output, force=force, lossy=lossy)
     keys = {"file": file, "output": output, "lost": list(lost)}
     out.print_result(reduction, keys, as_json=as_json, written=[output], lost=lost)
+    if output is not None and not as_json:
+        click.echo(f"to draw it: synth draw {out.plain(output, 4096)} -o left.svg")
 
 
 def _assur(sc: synth.SCGraph, ground: str | None, inputs: tuple[str, ...]) -> graphs.reduce.AssurReduction:

@@ -282,6 +282,8 @@ def scd(
         graph = _graph(file)
         with about(file):
             mechanisms = mechanism_of(graph, max_degree, **filters)
+        for note in graph.notes:
+            click.echo(f"note: {note}", err=True)
     elif links is None:
         raise click.UsageError("one of --links and --of FILE is required")
     else:
@@ -290,9 +292,26 @@ def scd(
         if not mechanisms.tree:
             _say_if_odd(links, dof, spatial)
     if only_count:
-        run_count(scd_count_job(mechanisms, method), running)
+        number = run_count(scd_count_job(mechanisms, method), running)
     else:
-        run_rows(SCDJob(mechanisms), running)
+        number = run_rows(SCDJob(mechanisms), running)
+    if file is not None and number == 0 and not running.resume:
+        _say_why_none(mechanisms, max_degree)
+
+
+def _say_why_none(mechanism: Mechanisms, max_degree: int) -> None:
+    """Say on standard error for which number of sides a mechanism has SCD graphs, where it has none with so few."""
+    from enumerate.scd.jobs import least_max_degree
+    from enumerate.scd.query import OneMechanism
+
+    assert isinstance(mechanism, OneMechanism)
+    none = f"no SCD graph of it has links of up to {max_degree} sides"
+    if not mechanism.placements.counted:  # symmetric ones, and vertices, are counted by making them only
+        click.echo(f"{none} and meets the options; try a larger --max-degree", err=True)
+        return
+    least = least_max_degree(mechanism)
+    more = f"--max-degree {least} is the least that has any" if least else "nor has any with more sides"
+    click.echo(f"{none}; {more}", err=True)
 
 
 def _graph(file: str) -> synth.SCGraph:

@@ -283,7 +283,7 @@ def _refuse(*rules: tuple[object, str]) -> None:
 
 def _on_cone(file: str, source: Any, cone_angle: float | None, seed: int, tries: int) -> ConeRealisation:
     from enumerate.strings import ChainString
-    from synth.drawing.mechanisms.chains import OrderOnCircle
+    from synth.conformed.orders import OrderOnCircle
     from synth.realisation.on_cone import realise_candidate
 
     angle = {} if cone_angle is None else {"cone_angle": radians(cone_angle)}

@@ -94,8 +94,8 @@ class LinkageOptions:
         """Return the linkage of a file, or of a row of conical candidates, which lies on any cone or cylinder."""
         from graphs.files.formats import read_linkage
         from synth.cli.reading import read_named
+        from synth.conformed.orders import OrderOnCircle
         from synth.drawing.catalogue import is_catalogue
-        from synth.drawing.mechanisms.chains import OrderOnCircle
 
         if self.row is None and not is_catalogue(file):
             return read_linkage(file)
@@ -177,7 +177,11 @@ def linkage_options(kind: Kind, *, arcs: bool = True) -> Callable[[_Command], _C
     return decorated
 
 
-_GROUND = options.value("--ground", "LINK", "Fixed link. By default the first (1), or the one that FILE names.")
+_GROUND = options.value(
+    "--ground",
+    "LINK",
+    "Fixed link. By default the ground link or the first link of FILE; links of a loop by sizes or steps are 1, 2, ...",
+)
 
 
 @dataclass(frozen=True)

@@ -19,6 +19,7 @@ from graphs.loops.loop import Centre
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.surfaces import SurfaceLinkage
 from graphs.types import JointId, LinkId
+from synth.conformed.orders import OrderOnCircle
 from synth.drawing.layout.mechanisms import Layout, layout_of
 from synth.drawing.mechanisms.labelling import beside, joint_dot, placed
 from synth.drawing.scene.frame import PLAIN, PictureFrame, PictureOptions, captions_of, framed, page_of
@@ -166,19 +167,6 @@ def _beyond(row: list[Point], off: float, bodies: Sequence[shapely.Polygon]) -> 
     middle = shapely.MultiPolygon(bodies).centroid
     free = [point for point in map(shapely.Point, places) if not any(body.contains(point) for body in bodies)]
     return [(point.x, point.y) for point in sorted(free, key=middle.distance, reverse=True)]
-
-
-@dataclass(frozen=True, slots=True)
-class OrderOnCircle:
-    """Joints round a cone, at azimuths in radians.
-
-    The chain is drawn if the order is not shown. `pairs` are the indices of neighbouring joints of a link.
-    """
-
-    chain: SCGraph
-    names: Sequence[str]
-    azimuths: Sequence[float]
-    pairs: Sequence[tuple[int, int]]
 
 
 def order_of_linkage(linkage: SurfaceLinkage) -> OrderOnCircle:

@@ -19,7 +19,8 @@ from graphs.mechanism.scd import SCDGraph
 from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import HingedSolids
 from graphs.mechanism.surfaces import SurfaceLinkage
-from synth.drawing.mechanisms.chains import OrderOnCircle, chain_scene, order_of_linkage, order_scene, strip_scene
+from synth.conformed.orders import OrderOnCircle
+from synth.drawing.mechanisms.chains import chain_scene, order_of_linkage, order_scene, strip_scene
 from synth.drawing.mechanisms.creases import crease_scene, overlay_of_marks, overlay_of_repairs
 from synth.drawing.mechanisms.sc_graphs import sc_scene
 from synth.drawing.mechanisms.space import folded_scene, model_scene, solids_scene

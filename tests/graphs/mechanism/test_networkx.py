@@ -325,3 +325,10 @@ def test_a_plain_graph_is_written_as_the_mechanism(tmp_path):
         for graph, name in ((mechanism, "a.json"), (mechanism.copy(), "b.json")):
             synth.write(graph, tmp_path / name, force=True)
         assert (tmp_path / "a.json").read_bytes() == (tmp_path / "b.json").read_bytes()
+
+
+def test_help_on_graphs_is_their_own():
+    for kind in (synth.SCGraph, synth.SCDGraph):
+        for name in ("__init__", "__repr__", "__str__"):
+            assert getattr(kind, name).__doc__ not in (None, getattr(nx.MultiGraph, name).__doc__)
+    assert "    pose : int, optional\n" in synth.mobility.__doc__

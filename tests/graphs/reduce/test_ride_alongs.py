@@ -107,18 +107,25 @@ def test_a_strip_is_one_chain():
     assert nx.dag_longest_path_length(chain) == len(reduction.steps) - 1
 
 
-def test_an_addendum_is_printed_as_a_tree():
+def test_an_addendum_is_printed_in_the_order_of_its_steps():
     sc = SCGraph(4, [(i, (i + 1) % 4) for i in range(4)], [Loop(range(4))])
     for a, b in ((0, 1), (4, 5), (0, 4), (6, 7), (6, 4)):
         sc = add_ride_along(sc, a, b).graph
     assert str(reduce(sc, keep=range(4))).splitlines()[2:] == [
         "5 steps in 1 adjunct addendum",
+        "step 1: links 8, 9 on 0, 4 (sits on step 5)",
+        "step 2: links 10, 11 on 6, 7 (sits on step 4)",
+        "step 3: links 12, 13 on 6, 4 (sits on step 4)",
+        "step 4: links 6, 7 on 4, 5 (sits on step 5)",
         "step 5: links 4, 5 on 0, 1",
-        "├── step 1: links 8, 9 on 0, 4",
-        "└── step 4: links 6, 7 on 4, 5",
-        "    ├── step 2: links 10, 11 on 6, 7",
-        "    └── step 3: links 12, 13 on 6, 4",
+        "left: one spherical loop of 4 links, k1:Cr",
     ]
+
+
+def test_what_is_left_is_said_with_its_loops(data):
+    files = [data / "wiener" / f"{name}.json" for name in ("fortune-teller", "watt-planar")]
+    lines = [str(reduce(file)).splitlines()[-1] for file in files]
+    assert lines == ["left: one spherical loop of 8 links, k1:GqGOOK", "left: one planar loop of 4 links, k1:Cr"]
 
 
 def test_blocks_keep_a_loop_unless_fully():

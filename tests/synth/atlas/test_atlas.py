@@ -372,7 +372,7 @@ def test_named_types_have_ids_of_their_mechanisms() -> None:
             assert map_id(mechanism_of_id(one.id)) == one.id
         assert one.source
     by_name = {one.name: one for one in named_types()}
-    assert by_name["watt"].id == map_id(read(DATA / "wiener/watt.json"))
+    assert by_name["Watt six-bar"].id == map_id(read(DATA / "wiener/watt.json"))
     assert by_name["fortune teller"].kind == "scd"
 
 

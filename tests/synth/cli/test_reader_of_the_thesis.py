@@ -25,7 +25,7 @@ def test_lists_name_what_is_known():
     assert re.search(r"k1:E`hW +Watt chain", chains)
     assert re.search(r"k1:E@zO +Stephenson chain", chains)
     graphs = run("enumerate", "sc", "--links", 6).stdout
-    assert re.search(r"m1:ab\.ac\.bde\.cfg\.dg\.ef +stephenson", graphs)
+    assert re.search(r"m1:ab\.ac\.bde\.cfg\.dg\.ef +Stephenson six-bar", graphs)
     assert " name " not in run("enumerate", "chains", "--links", 7, "--dof", 2).stdout  # none of these has one
 
 
@@ -108,3 +108,25 @@ def test_drawings_number_loops_as_options_do(data, tmp_path):
     assert rest[:2] == ["0", "1"]
     run("draw", data / "wiener" / "stephenson.json", "-o", tmp_path / "b.svg")
     assert {"0 = 1", "1 = 0"} <= set(re.findall(r"<text[^>]*>([^<]*)<", (tmp_path / "b.svg").read_text()))
+
+
+def test_rows_of_conical_candidates_have_the_numbers_that_row_takes(tmp_path):
+    printed = run("enumerate", "conical", "--chain", "four-bar", "--slots", 7, "--sort", "-grashof_loops").stdout
+    assert printed.splitlines()[2].split()[:2] == ["row", "order"]
+    numbers = [int(line.split()[0]) for line in printed.splitlines() if re.match(r" +\d+ +0 1", line)]
+    assert numbers == list(range(1, 13))
+    said = run("enumerate", "conical", "--chain", "four-bar", "--slots", 7, "-o", tmp_path / "a.jsonl").stdout
+    assert f"to see the rows: the same command without -o, or synth draw {tmp_path / 'a.jsonl'} -o rows.pdf" in said
+    run("draw", tmp_path / "a.jsonl", "-o", tmp_path / "rows.pdf")
+
+
+def test_no_table_has_two_columns_of_one_name():
+    head = run("enumerate", "sc", "--links", 6, "--per-chain").stdout.splitlines()[2].split()
+    assert head == ["code", "name", "chain", "chain", "name", "centres", "forms"]
+
+
+def test_names_of_types_are_none_of_files():
+    from synth.atlas.columns import named_types
+
+    names = [entry.name for entry in named_types()]
+    assert not [name for name in names if re.search(r"\bfig\d|\btable\d|\brow\d|\d bar|ride along|six bar", name)]

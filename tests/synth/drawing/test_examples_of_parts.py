@@ -5,7 +5,8 @@ from math import pi
 import networkx as nx
 
 from graphs.files.formats import mechanism_of_id
-from synth.drawing.catalogue import _order_of_row, is_catalogue
+from synth.conformed.orders import order_of_row
+from synth.drawing.catalogue import is_catalogue
 from synth.drawing.layout.embedding import faces_of, made_biconnected, mirrored, same_cycle, swaps_of
 from synth.drawing.scene.frame import framed, round_steps
 from synth.drawing.space.panels import same_side_up
@@ -13,7 +14,7 @@ from synth.drawing.space.panels import same_side_up
 
 def test_example_of_order_of_row():
     row = {"order": ["0", "1'", "3", "2"], "slots": [0, 5, 3, 2], "loops": [["0", "1", "3", "2"]]}
-    order = _order_of_row(row, mechanism_of_id("k1:Cr"))
+    order = order_of_row(row, mechanism_of_id("k1:Cr"))
     assert (order.names, [round(azimuth / pi, 3) for azimuth in order.azimuths], order.pairs) == (
         ["0", "1", "2", "3"],
         [0.0, 1.25, 0.75, 0.5],

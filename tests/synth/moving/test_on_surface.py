@@ -1,6 +1,7 @@
 """Conical linkages moved from the conformed position: closed form, paths, points of links, first order."""
 
 import json
+import re
 from math import degrees
 
 import numpy as np
@@ -207,7 +208,7 @@ def test_the_command_tells_up_to_which_turn_one_way_is_kept(data):
 def test_what_is_printed(rocker):
     out = str(rocker)
     assert "link 1 fixed, joint 2 driven" in out
-    assert "range to -105.5000757° (turns back), to 4.078014059° (turns back)" in out
+    assert "range -105.5° to 4.08°; turns back at both ends" in out
     assert "circuit closed, loop-closure residual " in out
     assert "4 configurations at 2 input angles within the range" in out
 
@@ -391,3 +392,14 @@ def test_an_arc_that_turns_about_its_own_end_changes_at_half_a_turn():
     assert min(abs(degrees(one.end) - abs(spans[2])) for one in motion.forward.ways[2]) < 1e-8
     parallelogram = move_on_surface(loop_on_cylinders([6, 2, 6, 2], 4.0)[0])
     assert 180.0 in {round(degrees(one.end), 9) for one in parallelogram.forward.ways[4]}
+
+
+def test_what_is_printed_says_each_thing_once():
+    """Ends and limits once, no column twice, zero as 0, and a link that goes both ways in words."""
+    first, _ = loop_on_cones(np.radians([120, 95, 45, 85]))
+    out = str(move_on_surface(first, at=np.radians([0, 3])))
+    assert "range -103.92° to 5.66°; turns back at both ends\n" in out
+    assert out.count("103.92") == 1
+    assert re.search(r"^ 3 +inward and outward to -33.81°, then inward +inward and outward *$", out, re.MULTILINE)
+    assert re.search(r"^ at +joint 2 +joint 3 +joint 4 +without turning back *$", out, re.MULTILINE)
+    assert re.search(r"^ +0 +0 +0 +0 +yes *$", out, re.MULTILINE)

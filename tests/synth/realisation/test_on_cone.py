@@ -1,8 +1,11 @@
 """Types with one centre laid on cones: the files lead back to the cone and to the type, and move as it does."""
 
+import json
+
 import numpy as np
 import pytest
 
+import synth
 from graphs.edit.analogues import planar_analogue, spherical_analogue
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.files.formats import read, read_linkage, write
@@ -75,3 +78,45 @@ def test_what_has_not_one_centre_is_refused(data):
 def test_a_cone_angle_out_of_range_is_refused(angle, stephenson):
     with pytest.raises(InvariantError, match="lambda is"):
         realise_on_cone(stephenson, cone_angle=angle)
+
+
+def test_rows_of_conical_candidates_become_linkages_that_move(tmp_path):
+    """From `conical_candidates` to `move_on_surface`: rows, results, linkages and files, of even kites too."""
+    rows = list(synth.conical_candidates("k1:Cr", slots=7))
+    again = [json.loads(json.dumps(row)) for row in rows]
+    laid = [realise_on_cone(row, cone_angle=LAMBDA) for row in rows]
+    for row, like, one in zip(rows, again, laid, strict=True):
+        places = one.linkage.places()
+        order = sorted(range(4), key=lambda joint: places[joint] % (2 * np.pi))
+        assert [str(list(one.linkage.chain.joints)[joint]) for joint in order] == row["order"]
+        assert one.cone_angle == LAMBDA
+        assert one.freedoms == 1
+        assert realise_on_cone(like, cone_angle=LAMBDA).linkage.steps == one.linkage.steps
+    synth.write(laid[0].linkage, tmp_path / "one.json")
+    motions = [synth.move_on_surface(each) for each in (laid[0], laid[0].linkage, tmp_path / "one.json")]
+    assert len({round(motion.forward.limit, 6) for motion in motions}) == 1
+    cone = synth.Cone(LAMBDA)
+    printed = str(synth.move_on_surface(rows[1], surface=cone))
+    assert printed == str(synth.move_on_surface(again[1], surface=cone))
+    assert len(synth.surface_behaviours(laid[0])) == 1
+
+
+def test_what_is_no_linkage_on_a_surface_is_refused():
+    refused = [
+        (lambda: realise_on_cone({"chain": "k1:Cr"}), "realise_on_cone: a mapping without order, loops; expected a row"),
+        (lambda: realise_on_cone({"chain": 3, "order": [], "loops": []}), "a mapping whose chain is 3; expected a row"),
+        (lambda: realise_on_cone({"chain": "k1:Cr", "order": ["0"], "loops": [], "slots": [0, 1]}), "order of the joints"),
+        (lambda: synth.move_on_surface({}), "move_on_surface: a mapping without chain, order, loops"),
+        (lambda: synth.move_on_surface("k1:Cr"), "move_on_surface: an object of type SCGraph; expected a SurfaceLinkage"),
+        (lambda: synth.map_to_cones({}), "link angles: an object of type dict; expected a list of numbers"),
+        (lambda: synth.map_to_cylinders(["a"]), "lengths: an object of type list; expected a list of numbers"),
+    ]  # fmt: skip
+    for call, text in refused:
+        with pytest.raises(synth.SynthedraError) as error:
+            call()
+        assert text in str(error.value)
+    linkage = synth.SurfaceLinkage.loop(np.radians([120, 95, 45, 85]))
+    with pytest.raises(UnsolvableError, match=r"lies on 2 cones, lambda 13\.9.*; expected one; try surface="):
+        synth.move_on_surface(linkage)
+    first, _ = synth.map_linkage(linkage).surfaces
+    assert synth.move_on_surface(linkage, surface=first.surface).on_surface.cone_angle == first.surface.angle
