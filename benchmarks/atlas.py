@@ -20,9 +20,9 @@ from tempfile import TemporaryDirectory
 from time import process_time
 from typing import Any
 
-from synth.atlas.building import AtlasPlan, build_atlas
-from synth.atlas.columns import COLUMNS
-from synth.atlas.opened import open_atlas
+from synth.synthesis.atlas.atlas_file import open_atlas
+from synth.synthesis.atlas.building import AtlasPlan, build_atlas
+from synth.synthesis.atlas.columns import COLUMNS
 
 PLACE = Path(__file__).resolve().parent / "results" / "atlas.json"
 ROWS = 500_000

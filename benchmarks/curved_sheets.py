@@ -23,7 +23,8 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 import numpy as np
 
-from synth.designing.quadrilaterals import (
+from synth.analysis.verdict import mobility
+from synth.synthesis.designing.quadrilaterals import (
     QuadrilateralSides,
     cell_curvatures,
     curved_sheet,
@@ -32,7 +33,6 @@ from synth.designing.quadrilaterals import (
     miura_sides,
     sheet_of_sides,
 )
-from synth.verdict import mobility
 
 SHEETS = {
     "cap": ((16, 16), 1.4, 2.4, (1.0, 2.0), (-0.15, 0.293), (-0.1, 0.269), (-1.0, -1.0), 0.051),

@@ -22,9 +22,9 @@ import numpy as np
 from folding import FOLDED, miura
 
 from graphs.convert.duality import mechanism_of_sheet
-from synth.folding.derivatives import SheetDerivatives
-from synth.folding.motion import fold
-from synth.motion.linkage import linkage_of_sheet
+from synth.analysis.folding.derivatives import SheetDerivatives
+from synth.analysis.folding.motion import fold
+from synth.analysis.motion.linkage import linkage_of_sheet
 
 SIZES = {10: 40, 32: 30, 50: 20}
 """Panels along each side, and frames."""

@@ -21,12 +21,12 @@ from scipy.spatial.transform import Rotation
 from graphs.files.formats import mechanism_of_id
 from graphs.mechanism.solids import HingedSolids
 from graphs.types import Floats
-from synth.atlas.motions import NearMotion
-from synth.atlas.signatures import MotionCurve, angles_between, difference
-from synth.designing.designs import DesignSearch
-from synth.designing.problem import DesignStep
-from synth.designing.wishes import LinkOrientation, WishedConfiguration, Wishes
-from synth.members.circuits import MemberCircuits, across, circuits_of, relative, spherical_of
+from synth.analysis.members.circuits import MemberCircuits, across, circuits_of, relative, spherical_of
+from synth.synthesis.atlas.motions import NearMotion
+from synth.synthesis.atlas.signatures import MotionCurve, angles_between, difference
+from synth.synthesis.designing.designs import DesignSearch
+from synth.synthesis.designing.problem import DesignStep
+from synth.synthesis.designing.wishes import LinkOrientation, WishedConfiguration, Wishes
 
 EXACT, ALONG, POSES = 1e-9, 1e-4, 16
 """Radians by which poses may be missed, and by which circuits may differ between them, where the motion is known by a

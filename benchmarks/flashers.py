@@ -38,11 +38,11 @@ from graphs.convert.duality import mechanism_of_sheet
 from graphs.least_squares.levenberg_marquardt import least_squares
 from graphs.tolerances import DOUBLE
 from graphs.types import Floats
-from synth.designing.search import SEARCH, seeded
-from synth.folding.collisions import shapes_of_panels
-from synth.motion.closure import ClosureEquations
-from synth.motion.linkage import linkage_of_sheet
-from synth.patterns.panels import sheet_of_faces
+from synth.analysis.folding.panel_collisions import shapes_of_panels
+from synth.analysis.motion.closure import ClosureEquations
+from synth.analysis.motion.linkage import linkage_of_sheet
+from synth.catalogue.patterns.panels import sheet_of_faces
+from synth.synthesis.designing.search import SEARCH, seeded
 
 RADIUS = 10.0
 """Of the sphere, in sides of the hub."""

@@ -27,7 +27,7 @@ import numpy as np
 
 from graphs.files.formats import write
 from graphs.mechanism.sheet import Sheet
-from synth.folding.motion import fold
+from synth.analysis.folding.motion import fold
 
 SIZES = {5: 60, 10: 60, 20: 40, 32: 30, 50: 20, 75: 12}
 """Panels along each side, and frames."""

@@ -37,12 +37,12 @@ from scipy.spatial.transform import Rotation
 from graphs.files.formats import mechanism_of_id
 from graphs.geometry import unit
 from graphs.types import Floats
-from synth.atlas import AtlasPlan, add_motions, build_atlas, like, open_atlas
-from synth.atlas.opened import Atlas
-from synth.atlas.signatures import MotionCurve
-from synth.members.circuits import MemberCircuits, circuits_of, product, relative
-from synth.motion.closure import ClosureEquations, corrected
-from synth.motion.linkage import linkage_of_axes
+from synth.analysis.members.circuits import MemberCircuits, circuits_of, product, relative
+from synth.analysis.motion.closure import ClosureEquations, corrected
+from synth.analysis.motion.linkage import linkage_of_axes
+from synth.synthesis.atlas import AtlasPlan, add_motions, build_atlas, like, open_atlas
+from synth.synthesis.atlas.atlas_file import Atlas
+from synth.synthesis.atlas.signatures import MotionCurve
 
 CHAINS = ("k1:Cr", "k1:E`hW", "k1:E@zO")
 NOISE, FRAMES, MANY = 1e-3, 64, 256

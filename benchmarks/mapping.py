@@ -18,12 +18,12 @@ import numpy as np
 
 from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
-from synth.conformed.behaviours import behaviour
-from synth.conformed.rates import ConformedChain
-from synth.fourbar.closing import can_close
-from synth.surfaces.circuit import link_angles
-from synth.surfaces.loop_maps import cone_reach, cylinder_reach
-from synth.surfaces.loop_sums import circumradii, cone_angles, loop_roots
+from synth.linkages.conformed.behaviours import behaviour
+from synth.linkages.conformed.rates import ConformedChain
+from synth.linkages.fourbar.closing import can_close
+from synth.linkages.surfaces.circuit import link_angles
+from synth.linkages.surfaces.loop_maps import cone_reach, cylinder_reach
+from synth.linkages.surfaces.loop_sums import circumradii, cone_angles, loop_roots
 
 RUNS = 5
 WATT = SCGraph(

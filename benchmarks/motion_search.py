@@ -27,10 +27,10 @@ import numpy as np
 from graphs.files.formats import mechanism_of_id
 from graphs.geometry import unit
 from graphs.mechanism.solids import HingedSolids
-from synth.atlas import AtlasPlan, add_motions, build_atlas, like, open_atlas
-from synth.atlas.motions import _blob, stored_motions
-from synth.members import circuits_of, sweep
-from synth.members.circuits import relative, spherical_of
+from synth.analysis.members import circuits_of, sweep
+from synth.analysis.members.circuits import relative, spherical_of
+from synth.synthesis.atlas import AtlasPlan, add_motions, build_atlas, like, open_atlas
+from synth.synthesis.atlas.motions import _blob, stored_motions
 
 PLACE = Path(__file__).resolve().parent / "results" / "motion_search.json"
 WATT = "k1:E`hW"

@@ -18,11 +18,11 @@ from time import perf_counter
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from synth.guidance.dyads import centre_axes
-from synth.guidance.fourbars import four_bars
-from synth.guidance.order import analyse_order, order_verdicts
-from synth.guidance.orientations import Orientations, read_orientations
-from synth.guidance.synthesis import dyads_by_least_squares, dyads_of_five
+from synth.linkages.guidance.dyads import centre_axes
+from synth.linkages.guidance.fourbars import four_bars
+from synth.linkages.guidance.order import analyse_order, order_verdicts
+from synth.linkages.guidance.orientations import Orientations, read_orientations
+from synth.linkages.guidance.synthesis import dyads_by_least_squares, dyads_of_five
 
 RUNS = 7
 AXES = 1_000_000

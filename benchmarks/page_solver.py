@@ -21,14 +21,14 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 import numpy as np
 
-from synth.folding.configuration import configuration_of_sheet
-from synth.folding.derivatives import largest_panel
-from synth.folding.motion import fold
-from synth.patterns.creases import miura
-from synth.viewer.linkage import bodies_of_sheet, solver_data
+from synth.analysis.folding.configuration import configuration_of_sheet
+from synth.analysis.folding.derivatives import largest_panel
+from synth.analysis.folding.motion import fold
+from synth.catalogue.patterns.creases import miura
+from synth.making.viewer.linkage import bodies_of_sheet, solver_data
 
 HERE = Path(__file__).resolve().parent
-ANSWERS = HERE.parent / "synth" / "viewer" / "web" / "src" / "answers.js"
+ANSWERS = HERE.parent / "synth" / "making" / "viewer" / "web" / "src" / "answers.js"
 SIZES = (5, 10, 20, 32)
 SECTOR = np.radians(60.0)
 FRAMES = 100

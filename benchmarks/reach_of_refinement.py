@@ -21,8 +21,8 @@ from scipy.spatial.transform import Rotation
 
 from graphs.files.formats import mechanism_of_id
 from graphs.geometry import unit
-from synth.atlas.motions import NearMotion
-from synth.atlas.signatures import MotionCurve
+from synth.synthesis.atlas.motions import NearMotion
+from synth.synthesis.atlas.signatures import MotionCurve
 
 TURNS, TRIES = (0.3, 1.0, 3.0, 6.0), 12
 """Degrees; how often each is tried."""

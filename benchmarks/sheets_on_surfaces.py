@@ -32,12 +32,12 @@ from scipy.spatial import cKDTree
 import synth
 from graphs.geometry import unit
 from graphs.types import Floats
-from synth.designing import EdgeLengths, Goal, JointAngle, PointsOn, WishedConfiguration, Wishes
-from synth.designing.designs import DesignSearch
-from synth.designing.poses import DesignPoint
-from synth.designing.targets import Formula, Mesh
-from synth.moving.made import configuration_of
-from synth.patterns.panels import sheet_of_faces
+from synth.analysis.moving._configuration_of import configuration_of
+from synth.catalogue.patterns.panels import sheet_of_faces
+from synth.synthesis.designing import EdgeLengths, Goal, JointAngle, PointsOn, WishedConfiguration, Wishes
+from synth.synthesis.designing.designs import DesignSearch
+from synth.synthesis.designing.poses import DesignPoint
+from synth.synthesis.designing.targets import Formula, Mesh
 
 SAMPLES = 10_000
 NEAR_FLAT = 0.1

@@ -26,7 +26,7 @@ from scipy.spatial.transform import Rotation
 
 import synth
 from graphs.geometry import rotations
-from synth.guidance import GuidedSixBar, Orientations, dyads_of_five, four_bars, six_bars
+from synth.linkages.guidance import GuidedSixBar, Orientations, dyads_of_five, four_bars, six_bars
 
 OUT = Path(__file__).parent / "results" / "six_bars.json"
 

@@ -21,7 +21,7 @@ from graphs.identity.drawings import map_id
 from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
-from synth.realisation.special.search import SpecialWishes, search_special
+from synth.catalogue.realisation.special.search import SpecialWishes, search_special
 
 OUT = Path(__file__).parent / "results" / "special_geometry.json"
 

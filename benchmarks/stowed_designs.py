@@ -29,8 +29,17 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 import numpy as np
 
 import synth
-from synth.designing import EdgeLengths, Goal, PanelCorners, SheetArea, SizeRatio, WishedConfiguration, Wishes, design
-from synth.patterns import GENERATORS
+from synth.catalogue.patterns import GENERATORS
+from synth.synthesis.designing import (
+    EdgeLengths,
+    Goal,
+    PanelCorners,
+    SheetArea,
+    SizeRatio,
+    WishedConfiguration,
+    Wishes,
+    design,
+)
 
 THICKNESS = 0.02
 """Of the material, in units of the sheets, which are one to four of them long."""

@@ -37,8 +37,8 @@ from benchmarks.gensparseg import built
 from benchmarks.osbo import frames_of_osbo
 from benchmarks.page_solver import measured as frames_of_page
 from graphs.files.formats import write
-from synth.folding.motion import fold
-from synth.patterns.creases import miura
+from synth.analysis.folding.motion import fold
+from synth.catalogue.patterns.creases import miura
 
 ROOT = Path(__file__).resolve().parent.parent
 RESULTS = ROOT / "benchmarks" / "results" / "table.json"
@@ -173,8 +173,8 @@ def counted(links: int) -> Figures:
 
 def positions(*, circuits: bool) -> Figures:
     """Measure the positions of a spherical four-bar, circuits told apart or not."""
-    from synth.assembly import positions as assembly_modes
-    from synth.patterns import generate
+    from synth.analysis.assembly import positions as assembly_modes
+    from synth.catalogue.patterns import generate
 
     ring = generate("four-bar").mechanism
     return {"runs": milliseconds(lambda: assembly_modes(ring, drive={0: 1.0}, circuits=circuits))}
@@ -182,7 +182,7 @@ def positions(*, circuits: bool) -> Figures:
 
 def cones() -> Figures:
     """Measure the cones of a four-bar, by numbers that differ each time."""
-    from synth.surfaces import map_to_cones
+    from synth.linkages.surfaces import map_to_cones
 
     angles = iter(np.radians([30.0, 45.0, 60.0, 70.0]) + 0.01 * k for k in range(100))
     return {"runs": milliseconds(lambda: map_to_cones(next(angles)), 20)}
@@ -192,8 +192,8 @@ def cones_at_once(count: int) -> Callable[[], Figures]:
     """Return what measures the cones of many four-bars that close."""
 
     def measure() -> Figures:
-        from synth.fourbar.closing import can_close
-        from synth.surfaces import cones_of_loops
+        from synth.linkages.fourbar.closing import can_close
+        from synth.linkages.surfaces import cones_of_loops
 
         angles = np.random.default_rng(1).uniform(0.02, np.pi - 0.02, (2 * count, 4))
         angles = angles[can_close(angles)][:count]
@@ -209,8 +209,8 @@ def swept(members: int, batch: int) -> Callable[[], Figures]:
     """
 
     def measure() -> Figures:
-        from synth.members import sweep
-        from synth.patterns.hinged_rings import spherical_ring
+        from synth.analysis.members import sweep
+        from synth.catalogue.patterns.hinged_rings import spherical_ring
 
         arcs, random = np.radians([30.0, 80.0, 70.0, 75.0]), np.random.default_rng(1)
         ring, turn = spherical_ring(arcs), np.linspace(0.0, 2.0 * np.pi, 64)
@@ -233,7 +233,7 @@ def realised(kind: str, links: int, step: int) -> Callable[[], Figures]:
         from enumerate.sc import sc_graphs
         from enumerate.scd import scd_graphs
         from graphs.errors import SynthedraError
-        from synth.realisation import realise
+        from synth.catalogue.realisation import realise
 
         listed = list(scd_graphs(links, 1, 4) if kind == "scd" else sc_graphs(links, 1))[::step]
         taken, refused = [], 0
@@ -252,7 +252,7 @@ def realised(kind: str, links: int, step: int) -> Callable[[], Figures]:
 
 def atlas() -> Figures:
     """Measure an atlas of types of up to six links, per type."""
-    from synth.atlas.building import AtlasPlan, build_atlas
+    from synth.synthesis.atlas.building import AtlasPlan, build_atlas
 
     taken = []
     with tempfile.TemporaryDirectory() as folder:

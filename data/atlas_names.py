@@ -1,4 +1,4 @@
-"""Write synth/atlas/named.json: the types that the literature names, by their ids.
+"""Write synth/synthesis/atlas/named.json: the types that the literature names, by their ids.
 
 The mechanisms of the papers (the index of this folder), chains that have a name, and what is known well. Run after
 `data/make.py`.
@@ -15,7 +15,7 @@ from graphs.answer.identity import identify
 from graphs.files.formats import read
 
 HERE = Path(__file__).resolve().parent
-PLACE = HERE.parent / "synth" / "atlas" / "named.json"
+PLACE = HERE.parent / "synth" / "synthesis" / "atlas" / "named.json"
 
 _CHAINS = (
     ("k1:Cr", "four-bar chain", "Reuleaux 1875"),

@@ -3,7 +3,7 @@
 Sines and solutions of equations differ in their last digits from processor to processor. Nine decimals are far from
 where they differ, and what is special about the geometry of a sheet is told within the precision that its digits
 show. A ring of solids that moves by its proportions alone, as Bennett's, could not move with nine: `ring` of
-`synth.patterns.hinged_rings` keeps fourteen of what has a closed form.
+`synth.catalogue.patterns.hinged_rings` keeps fourteen of what has a closed form.
 """
 
 from __future__ import annotations
@@ -11,10 +11,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from graphs.convert.table import Mechanism
+from graphs.convert.conversions import Mechanism
 from graphs.joints.linkage import JointedLinkage, JointPlace
 from graphs.mechanism.sheet import Sheet
-from synth.patterns.panels import rounded
+from synth.catalogue.patterns.panels import rounded
 
 DIGITS = 9
 

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
-from graphs.convert.table import Mechanism
+from graphs.convert.conversions import Mechanism
 
 
 @dataclass(frozen=True)

@@ -1,6 +1,6 @@
 """Linkages with the axes of their joints, for data/linkages/: closed loops that move although counts say no.
 
-Bennett's, Bricard's, kaleidocycles and Sarrus's panels are made by `synth.patterns`; angles and lengths are chosen here.
+Bennett's, Bricard's, kaleidocycles and Sarrus's panels are made by `synth.catalogue.patterns`; angles and lengths are chosen here.
 """
 
 from __future__ import annotations
@@ -8,11 +8,11 @@ from __future__ import annotations
 from itertools import product
 from math import cos, dist, sin, sqrt
 
-from graphs.convert.table import Mechanism
+from graphs.convert.conversions import Mechanism
 from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import HingedSolids
-from synth.patterns.hinged_rings import (
+from synth.catalogue.patterns.hinged_rings import (
     bennett,
     kaleidocycle,
     line_symmetric,
@@ -21,8 +21,8 @@ from synth.patterns.hinged_rings import (
     sarrus as sarrus_panels,
     trihedral,
 )
-from synth.patterns.panels import sheet_of_faces
-from synth.patterns.platforms import platform
+from synth.catalogue.patterns.panels import sheet_of_faces
+from synth.catalogue.patterns.platforms import platform
 
 
 def sarrus() -> HingedSolids:

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from graphs.convert.table import Mechanism
+from graphs.convert.conversions import Mechanism
 from graphs.joints.linkage import JointedLinkage, JointPlace
 from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph

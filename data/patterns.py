@@ -1,12 +1,12 @@
-"""Crease patterns for data/: those of `synth.patterns` with the sizes chosen here, and a vertex."""
+"""Crease patterns for data/: those of `synth.catalogue.patterns` with the sizes chosen here, and a vertex."""
 
 from __future__ import annotations
 
 from math import cos, pi, sin, sqrt
 
 from graphs.mechanism.sheet import Sheet
-from synth.patterns import creases
-from synth.patterns.panels import sheet_of_faces
+from synth.catalogue.patterns import creases
+from synth.catalogue.patterns.panels import sheet_of_faces
 
 Point = tuple[float, ...]
 

@@ -15,7 +15,7 @@ from entries import Entry
 
 from graphs.files.formats import write
 from graphs.mechanism.polyhedron import PolyhedronModel
-from synth.realisation.realised import Realisation, realise
+from synth.catalogue.realisation._realise import Realisation, realise
 
 HERE = Path(__file__).resolve().parent / "realised"
 

@@ -15,7 +15,7 @@ from graphs.files.formats import write
 from graphs.files.text import json_text
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.surfaces import Cone, Cylinder, SurfaceLinkage
-from synth.conformed.linkages import loop_on_cylinders
+from synth.linkages.conformed.linkage_behaviour import loop_on_cylinders
 
 FIG_11 = {"OA": -40, "AB": -20, "BC": -45, "CD": -68, "DE": 28, "EF": 30}
 """The six printed steps, degrees: an open run through the seven axes."""

@@ -356,7 +356,7 @@ def add_pages(app: Sphinx, exception: Exception | None) -> None:
 def files_of(thing: Thing) -> list[tuple[str, str, list[str]]]:
     """Return file, name and command of the page and the template of a thing; no page where its script is not built."""
     from graphs.errors import SynthedraError
-    from synth.viewer.pages import check_built
+    from synth.making.viewer.pages import check_built
 
     files = []
     try:

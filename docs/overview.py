@@ -10,9 +10,9 @@ from pathlib import Path
 import numpy as np
 
 import synth
-from synth.drawing.scene.shapes import Label, Layer, moved
-from synth.drawing.scene.writing import Scene
-from synth.drawing.space.poses import pose_scenes
+from synth.making.drawing.scene.shapes import Label, Layer, moved
+from synth.making.drawing.scene.writing import Scene
+from synth.making.drawing.space.poses import pose_scenes
 
 PLACE = Path(__file__).resolve().parent / "pictures" / "overview.svg"
 POSES = (2, 6, 10, 14)

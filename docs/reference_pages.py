@@ -50,8 +50,14 @@ def _named(name: str) -> object:
 
 
 def _rooms_of(package: str) -> list[str]:
-    found = iter_modules(import_module(package).__path__)
-    return sorted(info.name for info in found if info.name not in _INSIDE)
+    """Return the rooms of a package, those of a folder without a face by themselves: ``analysis.motion``."""
+    rooms: list[str] = []
+    for info in iter_modules(import_module(package).__path__):
+        if info.ispkg and not hasattr(import_module(f"{package}.{info.name}"), "__all__"):
+            rooms += [f"{info.name}.{inner}" for inner in _rooms_of(f"{package}.{info.name}")]
+        elif info.name not in _INSIDE:
+            rooms.append(info.name)
+    return sorted(rooms)
 
 
 def _offered_by(module: str) -> list[str]:

@@ -15,15 +15,27 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 from drawings.pieces import head
 
-from synth.drawing.scene.shapes import NORMAL, SMALL, Label, Layer, Line, Polygon, Shape, text_width
-from synth.drawing.scene.writing import Scene
+from synth.making.drawing.scene.shapes import NORMAL, SMALL, Label, Layer, Line, Polygon, Shape, text_width
+from synth.making.drawing.scene.writing import Scene
 
 ROOT = Path(__file__).resolve().parent.parent
 PLACE = ROOT / "docs" / "pictures" / "architecture.svg"
 ROOMS = (
-    *("graphs.tolerances", "graphs.geometry", "graphs.rank", "synth.motion", "synth.folding"),
-    *("synth.moving", "synth.assembly", "synth.compliance", "synth.overconstraint", "synth.verdict"),
-    *("synth.advice", "synth.drawing", "synth.realisation", "synth.templates", "synth.viewer"),
+    *("graphs.tolerances", "graphs.geometry", "graphs.rank", "synth.analysis.motion", "synth.analysis.folding"),
+    *(
+        "synth.analysis.moving",
+        "synth.analysis.assembly",
+        "synth.analysis.compliance",
+        "synth.analysis.overconstraint",
+        "synth.analysis.verdict",
+    ),
+    *(
+        "synth.analysis.advice",
+        "synth.making.drawing",
+        "synth.catalogue.realisation",
+        "synth.making.templates",
+        "synth.making.viewer",
+    ),
 )
 GAP, HIGH, DOWN, EDGE = 12.0, 20.0, 48.0, 6.0
 
@@ -38,9 +50,8 @@ def imports() -> nx.DiGraph:
         for file in files:
             for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
                 if isinstance(node, ast.ImportFrom) and node.module and file.name != "__init__.py":
-                    other = ".".join(node.module.split(".")[:2])
-                    if other in ROOMS and other != room:
-                        graph.add_edge(other, room)
+                    inside = [other for other in ROOMS if f"{node.module}.".startswith(f"{other}.")]
+                    graph.add_edges_from((other, room) for other in inside if other != room)
     return nx.transitive_reduction(graph)
 
 
@@ -60,7 +71,7 @@ def main() -> None:
     for room, (x, y) in boxes.items():
         half = wide[room] / 2
         corners = [(x - half, y), (x + half, y), (x + half, y + HIGH), (x - half, y + HIGH)]
-        middle = room == "synth.motion"
+        middle = room == "synth.analysis.motion"
         shapes.append(Polygon(corners, None, "marked" if middle else "grey", NORMAL))
         shapes.append(Label((x, y + HIGH / 2), room, SMALL, halo=False, bold=middle))
     for below, above in sorted(graph.edges):

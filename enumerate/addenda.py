@@ -23,13 +23,13 @@ import networkx as nx
 import numpy as np
 
 from enumerate.contracted.binary_links import orbits_of
+from enumerate.runner._run import rows_of
 from enumerate.runner.job import Column, ListColumn, Row, RowCount, Unit, batches
-from enumerate.runner.running import rows_of
 from graphs.arguments import keywords_checked
-from graphs.convert.table import graph_of
+from graphs.convert.conversions import graph_of
 from graphs.edit.edits import Edit, add_loop
 from graphs.errors import InvariantError
-from graphs.files.accepted import MechanismLike, mechanism_for
+from graphs.files.mechanism_like import MechanismLike, mechanism_for
 from graphs.files.native import dumps
 from graphs.identity.chains import chain_id, class_code, symmetries_of_links
 from graphs.loops.classes import CentreClass
@@ -258,7 +258,7 @@ def addendum_count_job(job: AddendumJob) -> RowCount:
 
     Examples
     --------
-    >>> from enumerate.runner.running import total_of
+    >>> from enumerate.runner._run import total_of
     >>> from graphs.loops.loop import Loop
     >>> four_bar = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop((0, 1, 2, 3))])
     >>> total_of(addendum_count_job(AddendumJob(four_bar, 0)))

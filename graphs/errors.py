@@ -141,7 +141,7 @@ class StoreError(SynthedraError):
 def check_argument(verb: str, value: object, kinds: type | UnionType) -> None:
     """Refuse an argument of a function of ``synth`` that is not of the kinds it takes, and say how to make one.
 
-    The functions of the face read paths themselves (`graphs.files.accepted`); others say that they do not.
+    The functions of the face read paths themselves (`graphs.files.mechanism_like`); others say that they do not.
 
     >>> from graphs.mechanism.sheet import Sheet
     >>> check_argument("fold", "a.fold", Sheet)

@@ -1,7 +1,7 @@
 """Faces of rooms: names that a folder offers, imported from its files when they are first asked for (PEP 562).
 
-Modules of a folder are imported so too, so that ``synth.fourbar.position`` works after ``import synth`` alone. The
-names stand once, in the stub beside the face (``__init__.pyi``), where type checkers read them too. It is
+Modules of a folder are imported so too, so that ``synth.linkages.fourbar.position`` works after ``import synth``
+alone. The names stand once, in the stub beside the face (``__init__.pyi``), where type checkers read them too. It is
 the idea of SPEC 1 of Scientific Python; a stub may name files of any room here.
 """
 

@@ -1,9 +1,9 @@
 """Conversions that may have to list: an SC graph as its only SCD graph. The others: `graphs.answer.conversion`."""
 
 from graphs.answer.conversion import convert as converted
-from graphs.convert.table import Mechanism, graph_of
+from graphs.convert.conversions import Mechanism, graph_of
 from graphs.errors import InvariantError, shown
-from graphs.files.accepted import MechanismLike, mechanism_for
+from graphs.files.mechanism_like import MechanismLike, mechanism_for
 from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.scd import SCDGraph
 from graphs.mechanism.sheet import Sheet

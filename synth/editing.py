@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any, NamedTuple, TypeAlias, cast
 
-from graphs.convert.table import Mechanism, graph_of
+from graphs.convert.conversions import Mechanism, graph_of
 from graphs.creasing.edits import SheetEdit, crease_sheet, joint_of_sheet_named, lock_crease, remove_crease
 from graphs.edit.edits import (
     Edit,
@@ -20,14 +20,14 @@ from graphs.edit.edits import (
     ride_along,
 )
 from graphs.errors import InvariantError, UnsolvableError, numbered, shown
-from graphs.files.accepted import MechanismLike, mechanism_for
+from graphs.files.mechanism_like import MechanismLike, mechanism_for
 from graphs.loops.loop import Centre
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
 from graphs.mechanism.sheet import Sheet, with_all_edges
 from graphs.printing import Block, Printed, TableBlock, plain
 from graphs.types import JointId, LinkId
-from synth.folding.motion import assign_branch as branch_assigned
+from synth.analysis.folding.motion import assign_branch as branch_assigned
 
 __all__ = ["EditedMechanism", "edit"]
 

@@ -25,7 +25,7 @@ Exported = Literal[
 
 @dataclass(frozen=True, slots=True)
 class Placed:
-    """A function by its place, such as ``synth.simulation.mjcf:mjcf_bytes``, imported when it is called.
+    """A function by its place, such as ``synth.making.simulation.mjcf:mjcf_bytes``, imported when it is called.
 
     It takes content and `arguments`; what it returns goes through `then`.
     """
@@ -47,8 +47,12 @@ class Placed:
         return made if self.then is None else self.then(made)
 
 
-_SCENES, _SOLIDS, _POSES = "synth.drawing.scene.writing", "synth.templates.solids", "synth.drawing.space.poses"
-_SIMULATION, _FLAT_FOLDED = "synth.simulation", "synth.drawing.mechanisms.flat_folded"
+_SCENES, _SOLIDS, _POSES = (
+    "synth.making.drawing.scene.writing",
+    "synth.making.templates.solids",
+    "synth.making.drawing.space.poses",
+)
+_SIMULATION, _FLAT_FOLDED = "synth.making.simulation", "synth.making.drawing.mechanisms.flat_folded"
 
 _PNG = Format(".png", "PNG", Placed(f"{_SCENES}:png_bytes"), needs="matplotlib.font_manager")
 _SVG = Format(".svg", "SVG", Placed(f"{_SCENES}:svg_bytes"))
@@ -71,7 +75,7 @@ def _solid(suffix: str, name: str, stem: str) -> Format[Any]:
 
 def _table(suffix: str, name: str, needs: str = "") -> Format[Any]:
     """Return the format of a table that a sink of the runner writes."""
-    return Format(suffix, name, Placed("synth.atlas.written:table_bytes", (suffix,)), needs=needs)
+    return Format(suffix, name, Placed("synth.synthesis.atlas.export:table_bytes", (suffix,)), needs=needs)
 
 
 _PICTURES_OF_MOTIONS = (
@@ -83,11 +87,11 @@ _PICTURES_OF_MOTIONS = (
 EXPORTERS: Mapping[Exported, Formats[Any]] = {
     "pictures": formats_by_suffix(_PNG, _SVG, _PDF),
     "templates": formats_by_suffix(
-        _PDF, _SVG,
-        Format(".dxf", "DXF R12, without pages and assembly instructions", Placed("synth.templates.writing:dxf_bytes")),
+        _PDF, _SVG, Format(".dxf", "DXF R12, without pages and assembly instructions",
+        Placed("synth.making.templates.writing:dxf_bytes")),
     ),
     "laser templates": formats_by_suffix(
-        _SVG, _PDF, Format(".dxf", "DXF R12", Placed("synth.templates.writing:laser_dxf_bytes"))
+        _SVG, _PDF, Format(".dxf", "DXF R12", Placed("synth.making.templates.writing:laser_dxf_bytes"))
     ),
     "pictures of motions": formats_by_suffix(*_PICTURES_OF_MOTIONS),
     "motions": formats_by_suffix(
@@ -118,7 +122,7 @@ EXPORTERS: Mapping[Exported, Formats[Any]] = {
     },
     "tables": formats_by_suffix(
         _table(".csv", "CSV"),
-        Format(".json", "JSON", Placed("synth.atlas.written:json_bytes")),
+        Format(".json", "JSON", Placed("synth.synthesis.atlas.export:json_bytes")),
         _table(".jsonl", "JSON lines"),
         _table(".parquet", "Parquet", needs="pyarrow"),
         _table(".tex", "LaTeX"),

@@ -8,9 +8,9 @@ from typing import Any, TypeAlias
 
 from enumerate.chains.names import name_of
 from graphs.answer.mechanisms import sheet_in_frame
-from graphs.convert.table import Mechanism, kind_in_words, to_sc
+from graphs.convert.conversions import Mechanism, kind_in_words, to_sc
 from graphs.errors import numbered
-from graphs.files.accepted import MechanismLike, mechanism_for
+from graphs.files.mechanism_like import MechanismLike, mechanism_for
 from graphs.identity.chains import chain_id
 from graphs.joints.linkage import JointedLinkage
 from graphs.loops.loop import Centre
@@ -21,7 +21,7 @@ from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import HingedSolids
 from graphs.mechanism.surfaces import SurfaceLinkage
 from graphs.printing import Block, Printed
-from synth.verdict.judged import JudgedMobility, mobility
+from synth.analysis.verdict._mobility import JudgedMobility, mobility
 
 _LETTERS = {"M": "mountain", "V": "valley", "U": "unassigned", "F": "flat", "C": "cut"}
 _MOST_NAMED = 12

@@ -18,8 +18,8 @@ _SHOWN = {
     "graphs.joints.linkage": "JointedLinkage",
     "graphs.mechanism.vertex_edge": "VertexEdgeGraph",
     "enumerate.strings.panel_strings": "ChainString",
-    "synth.guidance.orientations": "Orientations",
-    "synth.drawing.scene.writing": "Scene",
+    "synth.linkages.guidance.orientations": "Orientations",
+    "synth.making.drawing.scene.writing": "Scene",
 }
 """Module to class; subclasses are shown too."""
 
@@ -57,8 +57,8 @@ def picture_of(thing: Any) -> str | None:
     '<svg'
     """
     from graphs.errors import SynthedraError
-    from synth.drawing.mechanisms.pictures import draw
-    from synth.drawing.scene.writing import Scene, svg_text
+    from synth.making.drawing.mechanisms.pictures import draw
+    from synth.making.drawing.scene.writing import Scene, svg_text
 
     try:
         return svg_text(thing if isinstance(thing, Scene) else draw(thing))

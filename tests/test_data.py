@@ -10,7 +10,7 @@ import pytest
 import realised
 
 from graphs.answer.identity import identify
-from graphs.convert.table import to_sc, to_scd
+from graphs.convert.conversions import to_sc, to_scd
 from graphs.count.report import mobility_report
 from graphs.files.formats import read
 from graphs.identity.chains import chain_id

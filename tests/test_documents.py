@@ -101,9 +101,10 @@ def offered(kind):
     Single files of ``graphs`` have no face: what they hold is for other rooms, and has tests of its own below.
     """
     found = {}
-    for package in ("graphs", "enumerate", "synth"):
+    wings = [f"synth.{info.name}" for info in iter_modules(synth.__path__) if info.ispkg]
+    for package in ("graphs", "enumerate", "synth", *wings):
         for info in iter_modules(import_module(package).__path__):
-            if package == "graphs" and not info.ispkg:
+            if not info.ispkg and (package == "graphs" or package in wings):
                 continue
             module = import_module(f"{package}.{info.name}")
             for name in getattr(module, "__all__", ()):
@@ -246,7 +247,7 @@ def test_the_site_lists_the_files_of_each_theory_page():
     assert tuple(
         next(file for file, what in files_of(page) if what and name in file)
         for page, name in (("thick-panels", "heights"), ("layer-orders", "local"))
-    ) == ("synth/thickening/heights.py", "synth/layering/local.py")
+    ) == ("synth/making/thickening/heights.py", "synth/analysis/layering/local.py")
 
 
 def test_theory_pages_carry_no_lists_of_files():

@@ -7,8 +7,8 @@ from xml.etree import ElementTree
 
 import pytest
 
-from synth.drawing import svg_text
-from synth.drawing.scene.shapes import SMALL
+from synth.making.drawing import svg_text
+from synth.making.drawing.scene.shapes import SMALL
 
 ROOT = Path(__file__).resolve().parent.parent
 THEORY, KEPT = ROOT / "docs" / "theory", ROOT / "docs" / "pictures" / "theory"

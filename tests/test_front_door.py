@@ -19,7 +19,7 @@ import synth
 from graphs.errors import OpenError
 from graphs.reduce.assur import reduce_assur
 from synth.cli.output import shortened
-from synth.guidance.orientations import read_orientations
+from synth.linkages.guidance.orientations import read_orientations
 
 ROOT = Path(__file__).resolve().parents[1]
 
@@ -177,7 +177,7 @@ def test_lists_in_one_call_are_those_of_the_command():
 
 
 def test_a_page_in_one_call_is_that_of_the_command(data, tmp_path, monkeypatch):
-    from synth.viewer import pages
+    from synth.making.viewer import pages
 
     for name in ("page.js", "page.css"):
         (tmp_path / name).write_text("")

@@ -50,9 +50,14 @@ def imported(path):
             yield from (alias.name for alias in node.names)
 
 
+WINGS = ("linkages", "analysis", "catalogue", "making", "synthesis")
+"""Folders of rooms, in the order in which they use each other: none imports a later one."""
+
+
 def room(name):
-    """A folder of a package, with its subfolders; a file beside the folders is a room of its own."""
-    return ".".join(name.split(".")[:2])
+    """A folder of a package or a wing, with its subfolders; a file beside the folders is a room of its own."""
+    parts = name.split(".")
+    return ".".join(parts[: 3 if parts[0] == "synth" and parts[1:2] and parts[1] in WINGS else 2])
 
 
 @pytest.mark.parametrize("package", PACKAGES)
@@ -62,6 +67,15 @@ def test_imports_go_one_way(package):
         for name in imported(path):
             assert name.split(".")[0] not in later, f"{path} imports {name}"
             assert name != "enumerate", f"{path} hides the builtin"
+
+
+@pytest.mark.parametrize("wing", WINGS)
+def test_wings_go_one_way(wing):
+    later = WINGS[WINGS.index(wing) + 1 :]
+    for path in (ROOT / "synth" / wing).rglob("*.py"):
+        for name in imported(path):
+            parts = name.split(".")
+            assert parts[0] != "synth" or parts[1:2] == [] or parts[1] not in (*later, "cli"), f"{path} imports {name}"
 
 
 def test_there_is_no_circle_between_rooms():

@@ -10,7 +10,7 @@ from folded_sheets import unassigned_map
 from sizes import slow
 
 import synth
-from synth.layering.sweep import count_by_cells
+from synth.analysis.layering.sweep import count_by_cells
 
 PAGE = Path(__file__).parent.parent / "docs" / "sequences.md"
 ROW = re.compile(

@@ -13,10 +13,10 @@ from drawings import enumeration, turning  # noqa: E402
 from drawings.pages import drawing_of  # noqa: E402
 
 from graphs.mechanism.sc import SCGraph  # noqa: E402
-from synth.conformed.behaviours import Way, behaviour  # noqa: E402
-from synth.conformed.rates import ConformedChain  # noqa: E402
-from synth.drawing.scene.shapes import Line  # noqa: E402
-from synth.fourbar.closing import kind_of_planar  # noqa: E402
+from synth.linkages.conformed.behaviours import Way, behaviour  # noqa: E402
+from synth.linkages.conformed.rates import ConformedChain  # noqa: E402
+from synth.linkages.fourbar.closing import kind_of_planar  # noqa: E402
+from synth.making.drawing.scene.shapes import Line  # noqa: E402
 
 QUICK = ("four-bars", "behaviour", "conical-candidates")
 

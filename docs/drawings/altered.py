@@ -8,8 +8,8 @@ from math import inf
 
 from shapely.geometry import LineString
 
-from synth.drawing.scene.shapes import SMALL, Disc, Label, Layer, Polygon, Shape, moved, put
-from synth.drawing.scene.writing import Scene
+from synth.making.drawing.scene.shapes import SMALL, Disc, Label, Layer, Polygon, Shape, moved, put
+from synth.making.drawing.scene.writing import Scene
 
 __all__ = [
     "DASH",

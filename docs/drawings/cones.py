@@ -17,18 +17,30 @@ from drawings.together import above, beside, said
 from graphs.errors import InvariantError
 from graphs.mechanism.surfaces import Cone
 from graphs.types import Floats
-from synth.conformed.all_angles import links_in_layers
-from synth.conformed.linkages import OnSurface, linkage_on_surfaces, loop_of_steps, loop_on_cones
-from synth.conformed.rates import ConformedChain
-from synth.drawing import Scene
-from synth.drawing.conformed import surface_layer
-from synth.drawing.mechanisms.chains import ChainLook, chain_scene
-from synth.drawing.scene.frame import PictureOptions, Plot, round_steps, signed
-from synth.drawing.scene.shapes import FINE, NORMAL, STRONG, Disc, Label, Layer, Line, Point, Polygon, Shape, arc_points
-from synth.drawing.sums import draw_loop_sums
-from synth.surfaces.circuit import link_angles, loop_steps, wrapped
-from synth.surfaces.loop_maps import cone_reach, map_to_cones
-from synth.surfaces.loop_sums import loop_sum, sum_rounding
+from synth.linkages.conformed.linkage_behaviour import OnSurface, linkage_on_surfaces, loop_of_steps, loop_on_cones
+from synth.linkages.conformed.rates import ConformedChain
+from synth.linkages.conformed.rates_over_angles import links_in_layers
+from synth.linkages.surfaces.circuit import link_angles, loop_steps, wrapped
+from synth.linkages.surfaces.loop_maps import cone_reach, map_to_cones
+from synth.linkages.surfaces.loop_sums import loop_sum, sum_rounding
+from synth.making.drawing import Scene
+from synth.making.drawing.conformed import surface_layer
+from synth.making.drawing.mechanisms.chains import ChainLook, chain_scene
+from synth.making.drawing.scene.frame import PictureOptions, Plot, round_steps, signed
+from synth.making.drawing.scene.shapes import (
+    FINE,
+    NORMAL,
+    STRONG,
+    Disc,
+    Label,
+    Layer,
+    Line,
+    Point,
+    Polygon,
+    Shape,
+    arc_points,
+)
+from synth.making.drawing.sums import draw_loop_sums
 
 __all__ = ["DRAWINGS"]
 

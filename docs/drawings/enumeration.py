@@ -23,12 +23,12 @@ from graphs.errors import numbered
 from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.types import LinkId
-from synth.atlas.building import AtlasPlan, build_atlas
-from synth.conformed.orders import OrderOnCircle
-from synth.drawing import Scene
-from synth.drawing.mechanisms.chains import ChainLook, chain_scene
-from synth.drawing.scene.frame import PictureOptions
-from synth.drawing.scene.shapes import NORMAL, STRONG, Disc, Layer, Line, Point, Polygon, Shape
+from synth.linkages.conformed.orders import OrderOnCircle
+from synth.making.drawing import Scene
+from synth.making.drawing.mechanisms.chains import ChainLook, chain_scene
+from synth.making.drawing.scene.frame import PictureOptions
+from synth.making.drawing.scene.shapes import NORMAL, STRONG, Disc, Layer, Line, Point, Polygon, Shape
+from synth.synthesis.atlas.building import AtlasPlan, build_atlas
 
 __all__ = ["DRAWINGS"]
 

@@ -14,14 +14,14 @@ from drawings.examples import DATA
 from drawings.pieces import in_rows, of_shapes
 from drawings.together import beside, said
 from graphs.types import Floats
-from synth.drawing import Scene
-from synth.drawing.scene.shapes import FINE, NORMAL, Disc, Label, Line, Point, Polygon, Shape
-from synth.drawing.space.panels import View, view_from
-from synth.drawing.sphere import draw_hoop, spread
-from synth.guidance.dyads import Dyad
-from synth.guidance.fourbars import GuidedFourBar
-from synth.guidance.order import hoop
-from synth.guidance.orientations import Orientations, read_orientations
+from synth.linkages.guidance.dyads import Dyad
+from synth.linkages.guidance.fourbars import GuidedFourBar
+from synth.linkages.guidance.order import hoop
+from synth.linkages.guidance.orientations import Orientations, read_orientations
+from synth.making.drawing import Scene
+from synth.making.drawing.scene.shapes import FINE, NORMAL, Disc, Label, Line, Point, Polygon, Shape
+from synth.making.drawing.space.panels import View, view_from
+from synth.making.drawing.sphere import draw_hoop, spread
 
 __all__ = ["DRAWINGS"]
 

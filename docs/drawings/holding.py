@@ -14,14 +14,16 @@ from drawings.examples import generated_sheet, generated_solids
 from drawings.patterned import Patterned
 from drawings.together import above, beside, said
 from graphs.errors import numbered
-from graphs.files.accepted import MechanismLike
+from graphs.files.mechanism_like import MechanismLike
 from graphs.mechanism.sheet import Sheet
 from graphs.types import Floats
-from synth.compliance.joint_limits import limits
-from synth.compliance.springs import ElasticLinkage, Springs, equilibrium, load_path
-from synth.drawing import Scene
-from synth.drawing.scene.frame import Plot, round_steps, signed
-from synth.drawing.scene.shapes import (
+from synth.analysis.compliance.joint_limits import limits
+from synth.analysis.compliance.springs import ElasticLinkage, Springs, equilibrium, load_path
+from synth.analysis.moving._configuration_of import configuration_of
+from synth.catalogue.patterns import generate
+from synth.making.drawing import Scene
+from synth.making.drawing.scene.frame import Plot, round_steps, signed
+from synth.making.drawing.scene.shapes import (
     FINE,
     SMALL,
     STRONG,
@@ -34,9 +36,7 @@ from synth.drawing.scene.shapes import (
     Shape,
     colour_of_class,
 )
-from synth.drawing.space.poses import pose_scenes
-from synth.moving.made import configuration_of
-from synth.patterns import generate
+from synth.making.drawing.space.poses import pose_scenes
 
 __all__ = ["DRAWINGS"]
 

@@ -18,10 +18,21 @@ from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
 from graphs.mechanism.vertex_edge import vertex_edge_from_sc
 from graphs.types import JointId
-from synth.drawing import Scene
-from synth.drawing.mechanisms.labelling import centre_sign
-from synth.drawing.mechanisms.sc_graphs import class_numbers
-from synth.drawing.scene.shapes import FINE, NORMAL, SMALL, STRONG, Disc, Label, Line, Point, Shape, colour_of_class
+from synth.making.drawing import Scene
+from synth.making.drawing.mechanisms.labelling import centre_sign
+from synth.making.drawing.mechanisms.sc_graphs import class_numbers
+from synth.making.drawing.scene.shapes import (
+    FINE,
+    NORMAL,
+    SMALL,
+    STRONG,
+    Disc,
+    Label,
+    Line,
+    Point,
+    Shape,
+    colour_of_class,
+)
 
 __all__ = ["DRAWINGS"]
 

@@ -22,9 +22,9 @@ from graphs.mechanism.sheet import Sheet
 from graphs.rank.exact import diagnose
 from graphs.rank.pose import PoseMobility, closure_at_pose, pose_mobility
 from graphs.types import Floats
-from synth.drawing import Scene
-from synth.drawing.scene.frame import Plot, signed
-from synth.drawing.scene.shapes import FINE, NORMAL, SMALL, STRONG, Disc, Label, Layer, Line, Polygon, Shape
+from synth.making.drawing import Scene
+from synth.making.drawing.scene.frame import Plot, signed
+from synth.making.drawing.scene.shapes import FINE, NORMAL, SMALL, STRONG, Disc, Label, Layer, Line, Polygon, Shape
 
 __all__ = ["DRAWINGS"]
 

@@ -20,21 +20,32 @@ from graphs.errors import numbered
 from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import HingedSolids
 from graphs.types import Floats
-from synth.drawing import Scene
-from synth.drawing.mechanisms.flat_folded import flat_folded_scene
-from synth.drawing.scene.frame import PictureOptions, Plot, signed
-from synth.drawing.scene.shapes import FINE, NORMAL, SMALL, STRONG, Disc, Label, Layer, Line, Shape, colour_of_class
-from synth.drawing.space.panels import bodies_of, places_of_hinges
-from synth.drawing.space.poses import pose_scenes
-from synth.folding.configuration import configuration_of_sheet
-from synth.folding.derivatives import SheetDerivatives
-from synth.members import arcs_of
-from synth.motion.branches import branches_of
-from synth.motion.closure import ClosureEquations
-from synth.motion.linkage import linkage_of_sheet
-from synth.motion.motion import Motion
-from synth.motion.path import circuit_through
-from synth.moving.made import configuration_of
+from synth.analysis.folding.configuration import configuration_of_sheet
+from synth.analysis.folding.derivatives import SheetDerivatives
+from synth.analysis.members import arcs_of
+from synth.analysis.motion.branches import branches_of
+from synth.analysis.motion.closure import ClosureEquations
+from synth.analysis.motion.linkage import linkage_of_sheet
+from synth.analysis.motion.motion import Motion
+from synth.analysis.motion.path import circuit_through
+from synth.analysis.moving._configuration_of import configuration_of
+from synth.making.drawing import Scene
+from synth.making.drawing.mechanisms.flat_folded import flat_folded_scene
+from synth.making.drawing.scene.frame import PictureOptions, Plot, signed
+from synth.making.drawing.scene.shapes import (
+    FINE,
+    NORMAL,
+    SMALL,
+    STRONG,
+    Disc,
+    Label,
+    Layer,
+    Line,
+    Shape,
+    colour_of_class,
+)
+from synth.making.drawing.space.panels import bodies_of, places_of_hinges
+from synth.making.drawing.space.poses import pose_scenes
 
 __all__ = ["DRAWINGS"]
 

@@ -10,7 +10,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
 from drawings import cones, enumeration, guidance, holding, kinds, mobility, motion, searching, thick, things, turning
-from synth.drawing import Scene
+from synth.making.drawing import Scene
 
 FOLDER = Path(__file__).resolve().parent.parent / "pictures" / "theory"
 

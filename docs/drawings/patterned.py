@@ -12,9 +12,9 @@ import synth
 from graphs.convert.duality import SheetMechanism, mechanism_of_sheet
 from graphs.mechanism.sheet import Edge, Sheet, with_all_edges
 from graphs.types import Floats, JointId
-from synth.drawing import Scene
-from synth.drawing.mechanisms.creases import places_on_page
-from synth.drawing.scene.shapes import Point
+from synth.making.drawing import Scene
+from synth.making.drawing.mechanisms.creases import places_on_page
+from synth.making.drawing.scene.shapes import Point
 
 __all__ = ["Patterned"]
 

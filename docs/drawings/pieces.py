@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from math import hypot
 
 from drawings.together import above, beside
-from synth.drawing.scene.shapes import NORMAL, SMALL, Label, Layer, Line, Point, Polygon, Shape, text_width
-from synth.drawing.scene.writing import Scene
+from synth.making.drawing.scene.shapes import NORMAL, SMALL, Label, Layer, Line, Point, Polygon, Shape, text_width
+from synth.making.drawing.scene.writing import Scene
 
 __all__ = ["arrow", "head", "in_rows", "of_shapes", "on_air", "words"]
 

@@ -12,8 +12,8 @@ from drawings.pieces import of_shapes
 from drawings.together import beside, said
 from graphs.least_squares.levenberg_marquardt import LevenbergMarquardt, Minimum, least_squares
 from graphs.types import Floats
-from synth.drawing import Scene
-from synth.drawing.scene.shapes import FINE, NORMAL, Disc, Line, Point, Shape
+from synth.making.drawing import Scene
+from synth.making.drawing.scene.shapes import FINE, NORMAL, Disc, Line, Point, Shape
 
 __all__ = ["DRAWINGS", "in_a_valley"]
 

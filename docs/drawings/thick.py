@@ -9,8 +9,8 @@ import numpy as np
 import synth
 from drawings.pieces import in_rows, of_shapes
 from graphs.types import Floats
-from synth.drawing import Scene
-from synth.drawing.scene.shapes import SMALL, Label, Polygon, Shape
+from synth.making.drawing import Scene
+from synth.making.drawing.scene.shapes import SMALL, Label, Polygon, Shape
 
 _COLOURS = ((232, 201, 160), (217, 179, 130), (205, 162, 110), (190, 145, 95))
 _LIGHT = np.array([0.2, -0.3, 0.93])

@@ -12,17 +12,17 @@ from drawings.altered import cropped, legible, thinned, without
 from drawings.examples import DATA
 from drawings.pieces import arrow, in_rows, of_shapes, on_air, words
 from drawings.together import above, beside, said
+from graphs.convert.conversions import Mechanism
 from graphs.convert.duality import mechanism_of_sheet
-from graphs.convert.table import Mechanism
 from graphs.errors import numbered
 from graphs.mechanism.sheet import Sheet
-from synth.drawing import Scene
-from synth.drawing.mechanisms.creases import places_on_page
-from synth.drawing.scene.frame import signed
-from synth.drawing.scene.shapes import FINE, NORMAL, STRONG, Disc, Label, Layer, Line, Point, Shape
-from synth.drawing.space.poses import pose_scenes
-from synth.templates.pieces import Kind, Piece
-from synth.templates.template import template_of
+from synth.making.drawing import Scene
+from synth.making.drawing.mechanisms.creases import places_on_page
+from synth.making.drawing.scene.frame import signed
+from synth.making.drawing.scene.shapes import FINE, NORMAL, STRONG, Disc, Label, Layer, Line, Point, Shape
+from synth.making.drawing.space.poses import pose_scenes
+from synth.making.templates.pieces import Kind, Piece
+from synth.making.templates.template import template_of
 
 __all__ = ["DRAWINGS"]
 

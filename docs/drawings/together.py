@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from synth.drawing.scene.shapes import SMALL, Label, Layer, moved, text_width
-from synth.drawing.scene.writing import Scene
+from synth.making.drawing.scene.shapes import SMALL, Label, Layer, moved, text_width
+from synth.making.drawing.scene.writing import Scene
 
 __all__ = ["above", "beside", "said"]
 

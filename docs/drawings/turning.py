@@ -13,13 +13,13 @@ from drawings.pieces import in_rows, of_shapes
 from drawings.together import beside, said
 from graphs.mechanism.sc import SCGraph
 from graphs.types import Flags, Floats
-from synth.conformed.all_angles import links_in_layers
-from synth.conformed.rates import ConformedChain
-from synth.drawing import Scene
-from synth.drawing.scene.shapes import FINE, NORMAL, STRONG, Disc, Label, Line, Point, Shape
-from synth.fourbar.closing import kind_of_planar
-from synth.fourbar.position import output_planar
-from synth.surfaces.circuit import wrapped
+from synth.linkages.conformed.rates import ConformedChain
+from synth.linkages.conformed.rates_over_angles import links_in_layers
+from synth.linkages.fourbar.closing import kind_of_planar
+from synth.linkages.fourbar.position import output_planar
+from synth.linkages.surfaces.circuit import wrapped
+from synth.making.drawing import Scene
+from synth.making.drawing.scene.shapes import FINE, NORMAL, STRONG, Disc, Label, Line, Point, Shape
 
 __all__ = ["DRAWINGS", "carried_links", "way_of"]
 

@@ -12,8 +12,8 @@ from pathlib import Path
 
 import numpy as np
 
-from synth.simulation.assembly import AssemblyOptions, assembly_of
-from synth.simulation.tables import motions
+from synth.making.simulation.assembly import AssemblyOptions, assembly_of
+from synth.making.simulation.tables import motions
 
 mechanism, target, size = sys.argv[1:]
 assembly = assembly_of(mechanism, AssemblyOptions(size=float(size)))

@@ -3,7 +3,7 @@
 Both walk the contracted graphs. *Orbits*: of the placements on a graph, those are counted that no automorphism
 makes larger (`enumerate.contracted.orbits`). *Burnside*: the number of orbits is the mean, over the automorphisms,
 of the number of placements that an automorphism leaves as they are; these are the placements on the cycles of
-joints, so no placement is ever compared with another (`enumerate.contracted.left_in_place`). Theory:
+joints, so no placement is ever compared with another (`enumerate.contracted.fixed_placements`). Theory:
 docs/theory/chains.md.
 """
 
@@ -19,10 +19,10 @@ from enumerate.contracted.binary_links import (
     no_prefix,
     place,
 )
-from enumerate.contracted.left_in_place import Cycles, count_left_in_place, cycles_of
+from enumerate.contracted.fixed_placements import Cycles, count_left_in_place, cycles_of
 from enumerate.contracted.orbits import count_orbits, count_with_a_link
 from enumerate.contracted.states import order_of_classes
-from enumerate.kernel.compiled import compiled, number_of_orbits
+from enumerate.kernel._compiled import compiled, number_of_orbits
 from graphs.types import Bytes, Ints
 
 

@@ -29,7 +29,7 @@ import numpy.typing as npt
 
 from enumerate.contracted.binary_links import Frame, Units, conditions, frame_of, no_prefix, orbits_of, place
 from enumerate.contracted.graphs import contracted_graphs
-from enumerate.kernel.compiled import cycles
+from enumerate.kernel._compiled import cycles
 from graphs.identity.chains import automorphisms_of
 from graphs.types import Bytes
 

@@ -26,7 +26,7 @@ from enumerate.contracted.binary_links import EVERY
 from enumerate.contracted.graphs import contracted_graphs, cubic_graphs, descendants
 from enumerate.machine_code.weights import CHAIN, placing
 from enumerate.runner import job
-from enumerate.runner.running import graphs_of, rows_of, total_of
+from enumerate.runner._run import graphs_of, rows_of, total_of
 from graphs.arguments import keywords_checked
 from graphs.errors import UnsolvableError
 from graphs.identity.chains import chain_from_id
@@ -302,7 +302,7 @@ def count_job(
 
     Examples
     --------
-    >>> from enumerate.runner.running import total_of
+    >>> from enumerate.runner._run import total_of
     >>> [total_of(count_job(ChainQuery(8, 1), method)) for method in ("orbits", "burnside")]
     [16, 16]
     """

@@ -2,7 +2,7 @@
 
 Projected angles always fit, so a chain lies on a cone with its joints in any cyclic order; what is the same up to
 a turn, a mirror image or a symmetry of the chain (one that keeps the ground link, if there is one) counts once.
-What the candidates do is worked out in `synth.candidates.job`. Source: Hyatt et al. 2020, section 7. Theory:
+What the candidates do is worked out in `synth.synthesis.candidates.job`. Source: Hyatt et al. 2020, section 7. Theory:
 docs/theory/conical-candidates.md.
 """
 
@@ -16,8 +16,8 @@ import numpy as np
 from enumerate.conical.rounds import Rounds, count_rounds_by_burnside, count_rounds_by_orbits, placements, prefixes
 from enumerate.contracted.binary_links import orbits_of
 from enumerate.machine_code.weights import ROUND
+from enumerate.runner._run import total_of, tuples_of
 from enumerate.runner.job import Column, Query, QueryCount, QueryJob, Row, Unit
-from enumerate.runner.running import total_of, tuples_of
 from graphs.errors import InvariantError, UnsolvableError, shown
 from graphs.identity.chains import subdivided
 from graphs.identity.numbering import symmetries_of

@@ -15,7 +15,7 @@ from math import perm
 
 import numpy as np
 
-from enumerate.kernel.compiled import compiled, cycles, doubled
+from enumerate.kernel._compiled import compiled, cycles, doubled
 from enumerate.machine_code.weights import expect, layering
 from graphs.errors import InvariantError
 from graphs.types import Ints

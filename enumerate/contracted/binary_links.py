@@ -18,7 +18,7 @@ from typing import NamedTuple
 import numpy as np
 
 from enumerate.contracted.graphs import decode
-from enumerate.kernel.compiled import compiled, doubled
+from enumerate.kernel._compiled import compiled, doubled
 from enumerate.kernel.labelling import canonical_labels
 from enumerate.kernel.words import minus, plus
 from graphs.types import Bytes, Flags, Ints, Words

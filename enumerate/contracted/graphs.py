@@ -18,7 +18,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from enumerate.kernel.compiled import compiled, doubled, empty_set, insert
+from enumerate.kernel._compiled import compiled, doubled, empty_set, insert
 from enumerate.kernel.labelling import canonical_labels
 from enumerate.machine_code.weights import expect, placing
 from graphs.errors import InvariantError

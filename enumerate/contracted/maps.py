@@ -17,7 +17,7 @@ import numpy as np
 
 from enumerate.contracted.binary_links import Frame, rigid_sets
 from enumerate.contracted.graphs import Growth, cheapest_degree
-from enumerate.kernel.compiled import compiled, empty_set, insert
+from enumerate.kernel._compiled import compiled, empty_set, insert
 from enumerate.kernel.maps import END, JOINT, canonical_map, decode_map, faces_of, from_turns, symmetries_of_map
 from enumerate.machine_code.weights import expect, placing
 from graphs.types import Bytes, Ints

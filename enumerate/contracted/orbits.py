@@ -27,7 +27,7 @@ from enumerate.contracted.states import (
     strings_of_classes,
     total_at_end,
 )
-from enumerate.kernel.compiled import compiled
+from enumerate.kernel._compiled import compiled
 from graphs.types import Bytes, Flags, Ints, Words
 
 

@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from enumerate.contracted.binary_links import Frame
-from enumerate.kernel.compiled import compiled, doubled
+from enumerate.kernel._compiled import compiled, doubled
 from enumerate.kernel.words import GOLDEN, hashed, mixed, times
 from enumerate.machine_code.kernels import compiled_beside
 from graphs.types import Bytes, Ints, Words

@@ -11,7 +11,7 @@ docs/theory/exact-mobility.md.
 
 import numpy as np
 
-from enumerate.kernel.compiled import compiled, doubled
+from enumerate.kernel._compiled import compiled, doubled
 from enumerate.kernel.words import GOLDEN, has_several, number_in, plus, times
 from graphs.types import Ints, Words
 

@@ -12,7 +12,7 @@ Source: McKay and Piperno, *Practical graph isomorphism, II*, J. Symb. Comput. 6
 
 import numpy as np
 
-from enumerate.kernel.compiled import compiled, doubled
+from enumerate.kernel._compiled import compiled, doubled
 from enumerate.kernel.words import ALL, hashed, mixed
 from enumerate.machine_code.kernels import compiled_beside
 from graphs.types import Bytes, Words

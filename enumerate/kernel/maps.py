@@ -21,7 +21,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from enumerate.kernel.compiled import compiled, doubled
+from enumerate.kernel._compiled import compiled, doubled
 from graphs.types import Bytes, Ints
 
 # Symbols of a code. The least code counts, so their order is part of all codes, as in `graphs.identity.drawings`.

@@ -38,7 +38,7 @@ def can_compile() -> bool:
     return find_spec("numba") is not None
 
 
-_NEVER_INTERPRETED = frozenset({"synth.assembly.kernel"})
+_NEVER_INTERPRETED = frozenset({"synth.analysis.assembly.kernel"})
 """Modules whose kernels begin with machine code if they can: interpreted they are too slow for any answer."""
 
 

@@ -1,3 +1,4 @@
+from enumerate.runner._run import rows_of as rows_of, run as run, total_of as total_of
 from enumerate.runner.job import (
     Counting as Counting,
     Job as Job,
@@ -7,7 +8,6 @@ from enumerate.runner.job import (
     Sink as Sink,
     Unit as Unit,
 )
-from enumerate.runner.running import rows_of as rows_of, run as run, total_of as total_of
 from enumerate.runner.sinks import (
     CountSink as CountSink,
     RowSink as RowSink,

@@ -76,7 +76,7 @@ class Job(Protocol):
     ...         return [Unit(first) for first in (0, 2, 4)]
     ...     def work(self, payload):
     ...         return [(payload,), (payload + 1,)]
-    >>> from enumerate.runner.running import rows_of
+    >>> from enumerate.runner._run import rows_of
     >>> [row["number"] for row in rows_of(Numbers())]
     [0, 1, 2, 3, 4, 5]
     """
@@ -213,7 +213,7 @@ class Sink(Protocol):
     `run` starts a sink, hands it units, and finishes or aborts it:
 
     >>> from enumerate.chains import ChainJob, ChainQuery
-    >>> from enumerate.runner.running import run
+    >>> from enumerate.runner._run import run
     >>> from enumerate.runner.sinks import RowSink
     >>> class Lengths(RowSink):
     ...     def take(self, number, rows, seconds):

@@ -38,7 +38,7 @@ class RowSink:
     Examples
     --------
     >>> from enumerate.chains import ChainJob, ChainQuery
-    >>> from enumerate.runner.running import run
+    >>> from enumerate.runner._run import run
     >>> codes = []
     >>> _ = run(ChainJob(ChainQuery(6, 1), bare=True), RowSink(lambda columns, rows: codes.extend(rows)))
     >>> codes
@@ -418,7 +418,7 @@ def sink_for(
     --------
     >>> from tempfile import TemporaryDirectory
     >>> from enumerate.chains import ChainJob, ChainQuery
-    >>> from enumerate.runner.running import run
+    >>> from enumerate.runner._run import run
     >>> with TemporaryDirectory() as folder:
     ...     _ = run(ChainJob(ChainQuery(6, 1), bare=True), sink_for(Path(folder, "six.jsonl")))
     ...     print(Path(folder, "six.jsonl").read_text().rstrip())
@@ -457,7 +457,7 @@ class CountSink:
     Examples
     --------
     >>> from enumerate.chains import ChainQuery, count_job
-    >>> from enumerate.runner.running import run
+    >>> from enumerate.runner._run import run
     >>> sink = CountSink()
     >>> _ = run(count_job(ChainQuery(8, 1), "burnside"), sink)
     >>> sink.total
@@ -508,7 +508,7 @@ class CountSink:
         --------
         >>> from enumerate.chains.jobs import count_job
         >>> from enumerate.chains.query import ChainQuery
-        >>> from enumerate.runner.running import run
+        >>> from enumerate.runner._run import run
         >>> sink = CountSink()
         >>> progress = run(count_job(ChainQuery(8, 1), "orbits"), sink)
         >>> sink.by("contracted_links")

@@ -212,7 +212,7 @@ def read_meta(path: str | Path) -> dict[str, Any]:
     --------
     >>> from tempfile import TemporaryDirectory
     >>> from enumerate.chains import ChainJob, ChainQuery
-    >>> from enumerate.runner.running import run
+    >>> from enumerate.runner._run import run
     >>> with TemporaryDirectory() as folder:
     ...     store = Path(folder, "six.sqlite")
     ...     _ = run(ChainJob(ChainQuery(6, 1), bare=True), SqliteSink(store))
@@ -253,7 +253,7 @@ def read_rows(path: str | Path) -> Iterator[Row]:
     --------
     >>> from tempfile import TemporaryDirectory
     >>> from enumerate.chains import ChainJob, ChainQuery
-    >>> from enumerate.runner.running import run
+    >>> from enumerate.runner._run import run
     >>> with TemporaryDirectory() as folder:
     ...     store = Path(folder, "six.sqlite")
     ...     _ = run(ChainJob(ChainQuery(6, 1), bare=True), SqliteSink(store))

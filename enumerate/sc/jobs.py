@@ -27,7 +27,7 @@ from enumerate.contracted.maps import contracted_maps, joint_matrix, outer_faces
 from enumerate.kernel.maps import END, JOINT, OPEN, decode_map
 from enumerate.machine_code.weights import drawing, placing
 from enumerate.runner import job
-from enumerate.runner.running import graphs_of, rows_of, total_of
+from enumerate.runner._run import graphs_of, rows_of, total_of
 from enumerate.sc import listing
 from enumerate.sc.query import SCOptions, SCQuery
 from graphs.arguments import keywords_checked
@@ -267,7 +267,7 @@ def sc_count_job(query: SCQuery, method: str = "orbits", *, outside: bool = True
 
     Examples
     --------
-    >>> from enumerate.runner.running import total_of
+    >>> from enumerate.runner._run import total_of
     >>> [total_of(sc_count_job(SCQuery(6, 1), method)) for method in ("orbits", "burnside")]
     [4, 4]
     """

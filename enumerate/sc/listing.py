@@ -12,6 +12,7 @@ import numpy as np
 from enumerate.chains.counting import count_fixed, count_in
 from enumerate.contracted.binary_links import EVERY, PlacementRange, list_placements, no_prefix, with_symmetries
 from enumerate.contracted.maps import code_of, expanded, outer_frame, ring
+from enumerate.kernel._compiled import compiled, doubled, number_of_orbits
 from enumerate.kernel.centres import (
     FINITE,
     OUTER,
@@ -22,7 +23,6 @@ from enumerate.kernel.centres import (
     labellings,
     mobility_of,
 )
-from enumerate.kernel.compiled import compiled, doubled, number_of_orbits
 from graphs.types import Bytes, Ints, Words
 
 

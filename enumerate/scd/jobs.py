@@ -15,8 +15,8 @@ from enumerate.chains.rows import SIZE_COLUMNS, chain_ids
 from enumerate.kernel.centres import FINITE, MOST_JOINTS, OUTER, SPATIAL
 from enumerate.kernel.maps import OPEN
 from enumerate.machine_code.weights import PLACEMENT
+from enumerate.runner._run import graphs_of, rows_of, total_of
 from enumerate.runner.job import ANY_NUMBER, Column, ListColumn, QueryCount, QueryJob, Row, Unit, packed, row_as_dict
-from enumerate.runner.running import graphs_of, rows_of, total_of
 from enumerate.sc.jobs import CENTRE_COLUMNS, LABEL_LETTERS, UNIT_ROWS, map_ids
 from enumerate.scd.fewest import fewest_open_edges
 from enumerate.scd.listing import count_placements, list_placements_of, sides_of_all
@@ -32,10 +32,10 @@ from enumerate.scd.query import (
     Source,
 )
 from graphs.arguments import keywords_checked
-from graphs.convert.table import graph_of
+from graphs.convert.conversions import graph_of
 from graphs.count.report import mobility_report
 from graphs.errors import ArgumentError, InvariantError, UnsolvableError, numbered
-from graphs.files.accepted import MechanismLike, mechanism_for
+from graphs.files.mechanism_like import MechanismLike, mechanism_for
 from graphs.identity.drawings import map_code, map_id, mechanism_from_map_id
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
@@ -261,7 +261,7 @@ def scd_count_job(mechanisms: Mechanisms, method: str | None = None) -> SCDCount
 
     Examples
     --------
-    >>> from enumerate.runner.running import total_of
+    >>> from enumerate.runner._run import total_of
     >>> four = SCDQuery(4, 1, PlacementQuery(4))
     >>> [total_of(scd_count_job(four, method)) for method in ("orbits", "burnside")]
     [7, 7]

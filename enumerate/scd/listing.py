@@ -16,7 +16,7 @@ import numpy as np
 
 from enumerate.contracted.binary_links import symmetries_fixing
 from enumerate.contracted.maps import code_of
-from enumerate.kernel.compiled import compiled, doubled, number_of_orbits
+from enumerate.kernel._compiled import compiled, doubled, number_of_orbits
 from enumerate.kernel.maps import END
 from enumerate.scd.patterns import (
     CLOSED,

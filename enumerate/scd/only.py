@@ -1,6 +1,6 @@
 """The SCD graph of an SC graph where there is only one whose links have so few sides."""
 
-from enumerate.runner.running import total_of
+from enumerate.runner._run import total_of
 from enumerate.scd.jobs import mechanism_of, scd_count_job, scd_graphs_of
 from graphs.errors import UnsolvableError
 from graphs.identity.chains import isomorphism

@@ -11,6 +11,7 @@ docs/theory/scd-enumeration.md.
 import numpy as np
 
 from enumerate.contracted.maps import code_of
+from enumerate.kernel._compiled import compiled, doubled
 from enumerate.kernel.centres import (
     FINITE,
     FREE,
@@ -23,7 +24,6 @@ from enumerate.kernel.centres import (
     mobility_of,
     points_of_ends,
 )
-from enumerate.kernel.compiled import compiled, doubled
 from enumerate.kernel.maps import decode_map, faces_of, symmetries_of_map
 from enumerate.kernel.words import has_several
 from graphs.types import Bytes, Ints, Words

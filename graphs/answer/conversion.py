@@ -1,17 +1,17 @@
 """A mechanism in another form: converted by the names of kinds and forms, or reconstructed vertex by vertex.
 
-The roads from kind to kind are in :mod:`graphs.convert.table`. A reconstruction is the polyhedron model of a
+The roads from kind to kind are in :mod:`graphs.convert.conversions`. A reconstruction is the polyhedron model of a
 mechanism, with its counts; source: Wiener 2016, section 3.4.4. Theory: docs/theory/polyhedron-model.md.
 """
 
 from dataclasses import asdict, dataclass
 from typing import Any
 
+from graphs.convert.conversions import CONVERSIONS, FORMS, Mechanism, graph_of, to_polyhedron, to_scd
 from graphs.convert.panels import VertexStep, vertex_steps
-from graphs.convert.table import CONVERSIONS, FORMS, Mechanism, graph_of, to_polyhedron, to_scd
 from graphs.count.equations import mobility_of_model
 from graphs.errors import InvariantError, numbered, shown
-from graphs.files.accepted import MechanismLike, mechanism_for
+from graphs.files.mechanism_like import MechanismLike, mechanism_for
 from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.scd import FeatureCounts
 from graphs.printing import Block, Printed, TableBlock, plain

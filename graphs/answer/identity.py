@@ -8,10 +8,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal
 
-from graphs.convert.table import Mechanism, graph_of, to_scd
+from graphs.convert.conversions import Mechanism, graph_of, to_scd
 from graphs.errors import InvariantError, UnsolvableError, numbered
-from graphs.files.accepted import MechanismLike, mechanism_for
 from graphs.files.formats import Entry, read_all
+from graphs.files.mechanism_like import MechanismLike, mechanism_for
 from graphs.identity.chains import chain_id
 from graphs.identity.drawings import map_id
 from graphs.mechanism.polyhedron import PolyhedronModel

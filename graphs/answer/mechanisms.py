@@ -11,11 +11,11 @@ from typing import Any, Literal
 import networkx as nx
 import numpy as np
 
-from graphs.answer.jointed import chain_with_centres, mobility_of_jointed
+from graphs.answer.mobility_of_joints import chain_with_centres, mobility_of_jointed
 from graphs.answer.remote import notes_on_centres
 from graphs.answer.report import RODS_ALONE, MobilityAnswer, notes_of_pose
+from graphs.convert.conversions import Mechanism, graph_of
 from graphs.convert.duality import SheetMechanism, mechanism_of_sheet
-from graphs.convert.table import Mechanism, graph_of
 from graphs.count.report import mobility_report
 from graphs.errors import InvariantError, NumericalError, UnsolvableError, numbered, shown
 from graphs.joints.linkage import JointedLinkage

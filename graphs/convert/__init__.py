@@ -1,4 +1,4 @@
-"""One kind of mechanism made of another; `graphs.convert.table` says which of which."""
+"""One kind of mechanism made of another; `graphs.convert.conversions` says which of which."""
 
 from graphs.lazy import offered
 

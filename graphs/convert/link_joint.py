@@ -7,7 +7,7 @@ from itertools import pairwise
 import networkx as nx
 
 from graphs.errors import InvariantError
-from graphs.limits import check_work
+from graphs.input_limits import check_work
 from graphs.loops.loop import Centre, Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.types import JointId, Joints, LinkId

@@ -19,7 +19,7 @@ from scipy.sparse.csgraph import connected_components
 
 from graphs.errors import InvariantError, numbered
 from graphs.geometry import signed_area
-from graphs.limits import check_work
+from graphs.input_limits import check_work
 from graphs.mechanism.sheet import HINGES, Edge, Place, Reading, Repair, RepairKind, Sheet, sides_of_face
 from graphs.types import Floats
 

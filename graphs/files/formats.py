@@ -12,8 +12,8 @@ from typing import Any, TypeAlias, TypeVar, overload
 
 import networkx as nx
 
+from graphs.convert.conversions import Mechanism, mechanism_of_graph, to_sc, to_sheet
 from graphs.convert.link_joint import sc_from_link_joint_graph
-from graphs.convert.table import Mechanism, mechanism_of_graph, to_sc, to_sheet
 from graphs.errors import (
     ArgumentError,
     FileError,

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from math import isclose, pi
 from typing import Any
 
-from graphs.convert.table import Mechanism, to_sc, to_sheet
+from graphs.convert.conversions import Mechanism, to_sc, to_sheet
 from graphs.count.report import mobility_report
 from graphs.errors import InvariantError, UnsolvableError, numbered
 from graphs.files.bare import are_kept

@@ -15,7 +15,7 @@ from typing import Any, NoReturn, TypeVar
 
 from graphs.errors import FileError, InvariantError, OpenError, numbered, shown
 from graphs.files.atomic import reason_of
-from graphs.limits import how_to_raise, most
+from graphs.input_limits import how_to_raise, most
 
 
 def read_text(path: Path) -> str:

@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from graphs.compiled import library
+from graphs.c_libraries import library
 from graphs.identity.leaves import ColouredGraph, Symmetries, greatest_leaf
 from graphs.types import Ints
 

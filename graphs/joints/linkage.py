@@ -9,7 +9,7 @@ from types import MappingProxyType
 from typing import Any
 
 from graphs.errors import InvariantError, numbered, shown
-from graphs.limits import LEAST, MOST, check_extent, in_reach
+from graphs.input_limits import LEAST, MOST, check_extent, in_reach
 from graphs.loops.loop import Centre, Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.types import Floats, JointId, LinkId

@@ -1,7 +1,7 @@
 """Joints of all kinds as chains of revolutes, a mechanism of creases that does the same; such chains recognised.
 
 S is three revolutes about a point, U two whose axes cross at a right angle, the planar joint three parallel ones,
-a slide the linkage of Sarrus (or a knee, `graphs.joints.placing`), C a slide and a revolute along it. Source:
+a slide the linkage of Sarrus (or a knee, `graphs.joints.joint_places`), C a slide and a revolute along it. Source:
 Wiener 2016, sections 5.1 and 5.2. Theory: docs/theory/joints.md.
 """
 
@@ -12,8 +12,8 @@ from itertools import count, pairwise
 import numpy as np
 
 from graphs.geometry import across, frame_about, unit
+from graphs.joints.joint_places import placed, placed_knees
 from graphs.joints.linkage import JointedLinkage, JointKind, JointPlace, Leg, legs, plain_vector
-from graphs.joints.placing import placed, placed_knees
 from graphs.mechanism.precision import extent_of, precision_of_axes
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.solids import Axis, HingedSolids

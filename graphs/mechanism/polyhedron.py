@@ -15,7 +15,7 @@ from typing import Any
 import networkx as nx
 
 from graphs.errors import InvariantError, numbered, shown
-from graphs.limits import check_extent
+from graphs.input_limits import check_extent
 from graphs.mechanism.attributes import BuiltWhole
 
 VertexId = Hashable

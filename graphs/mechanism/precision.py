@@ -14,7 +14,7 @@ import numpy as np
 
 from graphs.errors import UnsolvableError
 from graphs.geometry import across, best_plane, unit
-from graphs.limits import LEAST, MOST
+from graphs.input_limits import LEAST, MOST
 from graphs.mechanism.estimate import Estimate, estimate_of
 from graphs.mechanism.sheet import Frames, Sheet, WrittenPrecision
 from graphs.tolerances import DOUBLE, EPSILON, Tolerances

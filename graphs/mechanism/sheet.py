@@ -16,7 +16,7 @@ from typing import Any, Literal, Protocol, TypeAlias, TypeVar
 import numpy as np
 
 from graphs.errors import InvariantError, numbered, shown
-from graphs.limits import check_area, check_extent
+from graphs.input_limits import check_area, check_extent
 from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.types import Floats, Ints
 
@@ -179,7 +179,7 @@ class Sheet:
     ------
     InvariantError
         For an edge or face that names an unknown vertex, an edge from a vertex to itself, coordinates out of the
-        range of `graphs.limits`, or faces whose vertices all lie in one line.
+        range of `graphs.input_limits`, or faces whose vertices all lie in one line.
 
     Examples
     --------

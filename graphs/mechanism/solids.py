@@ -1,6 +1,6 @@
 """Solids hinged at edges: a linkage by the axes of its joints in space, at one configuration.
 
-How it moves is worked out in ``synth.moving``. Theory: docs/theory/moving.md.
+How it moves is worked out in ``synth.analysis.moving``. Theory: docs/theory/moving.md.
 """
 
 from collections.abc import Mapping, Sequence
@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from graphs.errors import InvariantError, numbered, shown
-from graphs.limits import LEAST, MOST, check_extent, in_reach
+from graphs.input_limits import LEAST, MOST, check_extent, in_reach
 from graphs.mechanism.sc import SCGraph
 from graphs.tolerances import DOUBLE, MARGIN
 from graphs.types import Floats, JointId, LinkId

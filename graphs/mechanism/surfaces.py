@@ -1,7 +1,7 @@
 """Right cones and circular cylinders, and linkages on them by their links' sizes, or by steps between joint axes.
 
-A place is an azimuth, a length along the ruling line there, a height outward. A cylinder is the limit of cones,
-its apex at infinity, and linkages on it are planar. How a linkage lies on surfaces: ``synth.surfaces``. Theory:
+A place is an azimuth, a length along the ruling line there, a height outward. A cylinder is the limit of cones, its
+apex at infinity, and linkages on it are planar. How a linkage lies on surfaces: ``synth.linkages.surfaces``. Theory:
 docs/theory/mapping.md, docs/theory/multiloop.md, docs/theory/templates.md.
 """
 

@@ -284,7 +284,7 @@ def diagnose(mechanism: SCGraph, prime: int = PRIMES[0], *, forced: bool = True,
     Examples
     --------
     >>> from graphs.files.formats import read
-    >>> from graphs.convert.table import to_sc
+    >>> from graphs.convert.conversions import to_sc
     >>> diagnosis = diagnose(to_sc(read("data/wiener/square-twist.fold")))  # rigid, no equation redundant
     >>> diagnosis.mobility, diagnosis.idle, len(diagnosis.immobile), len(diagnosis.clusters)
     (0, 0, 12, 1)

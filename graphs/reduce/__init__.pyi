@@ -5,4 +5,4 @@ from graphs.reduce.assur import (
     reduce_assur as reduce_assur,
 )
 from graphs.reduce.ride_alongs import Reduction as Reduction, ReductionStep as ReductionStep, reduce as reduce
-from graphs.reduce.working import RULES as RULES
+from graphs.reduce.working_graph import RULES as RULES

@@ -12,11 +12,11 @@ from typing import Any, NamedTuple
 
 import networkx as nx
 
-from graphs.convert.table import to_sc
+from graphs.convert.conversions import to_sc
 from graphs.count.report import mobility_report
 from graphs.edit.edits import counts_as_json
 from graphs.errors import InvariantError, numbered, shown
-from graphs.files.accepted import MechanismLike, mechanism_for
+from graphs.files.mechanism_like import MechanismLike, mechanism_for
 from graphs.identity.chains import chain_id
 from graphs.identity.leaves import ColouredGraph
 from graphs.identity.numbering import labels_of
@@ -24,8 +24,8 @@ from graphs.loops.loop import Centre
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
 from graphs.printing import Block, Printed, plain
-from graphs.reduce.drawn import drawn_as
-from graphs.reduce.working import RULES, ReductionTerms, Removal, TakenAddendum, WorkingGraph, take_all
+from graphs.reduce.reduced_drawing import drawn_as
+from graphs.reduce.working_graph import RULES, ReductionTerms, Removal, TakenAddendum, WorkingGraph, take_all
 from graphs.types import JointId, LinkId
 
 

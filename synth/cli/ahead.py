@@ -72,7 +72,7 @@ def _run(command: str) -> int:
 
 def _positions() -> int:
     """Compile the search for assembly modes, for which commands need a file."""
-    from synth.patterns.hinged_rings import spherical_ring
+    from synth.catalogue.patterns.hinged_rings import spherical_ring
 
     before = compiled_here()
     synth.positions(spherical_ring([1.0, 1.2, 0.9, 1.4]), drive={0: 0.1}, circuits=False)

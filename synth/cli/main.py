@@ -197,7 +197,7 @@ def _print_version(ctx: click.Context, _parameter: click.Parameter, requested: b
     from importlib.metadata import PackageNotFoundError, version
     from platform import python_version
 
-    from graphs.compiled import library, sources
+    from graphs.c_libraries import library, sources
 
     click.echo(f"synth, version {version('synthedra')}")
     parts = [f"Python {python_version()}"]

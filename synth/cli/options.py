@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
-from graphs.limits import LEAST, MOST
+from graphs.input_limits import LEAST, MOST
 from graphs.printing import plain
 
 if TYPE_CHECKING:

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from enumerate.strings import ChainString
     from graphs.convert import Mechanism
     from graphs.files.formats import Entry
-    from synth.conformed.orders import OrderOnCircle
+    from synth.linkages.conformed.orders import OrderOnCircle
 
 _LOOKS, _PRECISION, _AT = "synthedra.stated", "synth.precision", "synthedra.at"
 """Keys under which the values of options are kept with the context."""
@@ -116,7 +116,7 @@ def _in_configuration(mechanism: Mechanism, file: str) -> Mechanism:
     words = () if context is None else context.meta.get(_AT, ())
     if not words:
         return mechanism
-    from synth.moving import configuration_of, in_configuration
+    from synth.analysis.moving import configuration_of, in_configuration
 
     frames = [word for word in words if "=" not in word]
     if len(frames) > 1 or not all(word == "last" or (word.isascii() and word.isdigit()) for word in frames):
@@ -141,7 +141,7 @@ def precision() -> float | None:
 
 def precise(mechanism: Mechanism) -> Any:
     """Return a mechanism with the precision of --precision: a crease pattern, or the configuration of another."""
-    from synth.moving.made import with_precision
+    from synth.analysis.moving._configuration_of import with_precision
 
     return with_precision(mechanism, precision())
 
@@ -174,7 +174,7 @@ def read_named(argument: str, row: int | None = None, mode: str | None = None) -
     With a row, from 1, it is one of a store, a list or a folder; a row of a list of modes has its own mode. Raise
     click.UsageError if a row is required and missing, or the other way round.
     """
-    from synth.drawing.catalogue import entry_numbered, is_catalogue
+    from synth.making.drawing.list_pages import entry_numbered, is_catalogue
 
     if is_catalogue(argument):
         if row is None:

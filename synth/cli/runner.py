@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 _MOST_IN_TABLE = 1000
 _NAME = "name"
-"""The column of names of known types (synth/atlas/named.json), in tables only: rows in files have ids."""
+"""The column of names of known types (synth/synthesis/atlas/named.json), in tables only: rows in files have ids."""
 _ROW = "row"
 """The column of numbers of rows, from 1, in tables only."""
 _PATIENCE = 1.0
@@ -173,7 +173,7 @@ def run_whole(job: Job, sink: Sink, running: RunOptions) -> None:
 
 
 def _run(job: Job, sink: Sink, running: RunOptions, meter: _Meter, *, stored: bool = False) -> Progress:
-    from enumerate.runner.running import run
+    from enumerate.runner._run import run
     from enumerate.runner.stopping import Interrupted
 
     try:
@@ -293,7 +293,7 @@ class TablePrinter:
         """Return a row with the name of its type behind the id, or nothing."""
         if self._id is None:
             return row
-        from synth.atlas.columns import name_of_id
+        from synth.synthesis.atlas.columns import name_of_id
 
         return [*row[: self._id + 1], name_of_id(row[self._id]) or "", *row[self._id + 1 :]]
 

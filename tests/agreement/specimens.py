@@ -16,11 +16,11 @@ from graphs.joints.linkage import JointedLinkage
 from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import HingedSolids
-from synth.drawing.space.poses import write_motion
-from synth.folding.motion import fold
-from synth.patterns.catalogue import GENERATORS
-from synth.patterns.generated import generate
-from synth.patterns.generator import Generator
+from synth.analysis.folding.motion import fold
+from synth.catalogue.patterns._generate import generate
+from synth.catalogue.patterns.generator import Generator
+from synth.catalogue.patterns.generators import GENERATORS
+from synth.making.drawing.space.poses import write_motion
 from tests.support.real_patterns import folder_of_patterns, names_of_patterns
 
 __all__ = ["MOST_PANELS", "Placed", "Specimen", "is_placed", "is_wanted", "named_specimens", "specimens"]

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from graphs.mechanism.precision import in_space
-from synth.patterns.creases import miura
+from synth.catalogue.patterns.creases import miura
 from tests.agreement.comparison import Table, disagreements
 from tests.agreement.running import comparisons
 from tests.agreement.specimens import is_wanted, named_specimens, specimens

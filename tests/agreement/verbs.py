@@ -26,11 +26,11 @@ import synth
 from graphs.errors import SynthedraError
 from graphs.mechanism.sheet import Sheet
 from graphs.types import JointId
+from synth.analysis.compliance.joint_limits import limits
+from synth.analysis.moving._configuration_of import sheet_of
 from synth.cli.main import main
-from synth.compliance.joint_limits import limits
-from synth.moving.made import sheet_of
-from synth.templates.template import panels_of_mechanism, template_of
-from synth.viewer.shown import Shown, shown_of
+from synth.making.templates.template import panels_of_mechanism, template_of
+from synth.making.viewer.page_data import Shown, shown_of
 from tests.agreement.specimens import Placed
 
 __all__ = ["DOORS", "VERBS", "Outcome", "Subject", "Verb", "asked"]

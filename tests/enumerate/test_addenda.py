@@ -3,7 +3,7 @@ import pytest
 from sizes import slow
 
 from enumerate.addenda import AddendumJob, addenda, addendum_count_job
-from enumerate.runner.running import run
+from enumerate.runner._run import run
 from enumerate.runner.sinks import CountSink
 from graphs.edit.edits import add_ride_along
 from graphs.errors import InvariantError

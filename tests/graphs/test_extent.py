@@ -8,7 +8,7 @@ from sizes import slow
 
 import synth
 from graphs.errors import FileError, InvariantError
-from graphs.limits import LEAST, MOST, check_area, check_extent
+from graphs.input_limits import LEAST, MOST, check_area, check_extent
 from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import HingedSolids

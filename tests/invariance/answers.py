@@ -6,8 +6,8 @@ from collections import Counter
 from dataclasses import dataclass, fields
 
 from graphs.errors import SynthedraError
-from synth.folding.configuration import SheetConfiguration, configuration_of_sheet
-from synth.verdict.judged import verdict_of_motion
+from synth.analysis.folding.configuration import SheetConfiguration, configuration_of_sheet
+from synth.analysis.verdict._mobility import verdict_of_motion
 from tests.invariance.guises import Guise
 
 __all__ = ["Answer", "answer_to", "differences"]

@@ -11,10 +11,10 @@ from graphs.answer.mechanisms import mobility as counted
 from graphs.files.formats import read
 from graphs.mechanism.precision import in_space
 from graphs.mechanism.sheet import Sheet, with_all_edges
-from synth.folding.configuration import configuration_of_sheet
-from synth.motion.branches import Search, branches_of
-from synth.motion.singular.joint_order import in_order, joint_order
-from synth.patterns.creases import miura
+from synth.analysis.folding.configuration import configuration_of_sheet
+from synth.analysis.motion.branches import Search, branches_of
+from synth.analysis.motion.singular.joint_order import in_order, joint_order
+from synth.catalogue.patterns.creases import miura
 from tests.agreement.specimens import ROOT
 from tests.invariance.comparing import Table, comparisons
 from tests.invariance.guises import GUISES, guises_of

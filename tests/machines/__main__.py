@@ -20,9 +20,10 @@ from tests.machines.comparison import Answer, differences
 from tests.machines.factors import FACTORS, ROOT, Factor, environment_for, reason_to_leave_out
 from tests.machines.transcript import read_transcript, transcript_under
 
-_ROOMS = (
-    "folding verdict realisation overconstraint advice compliance assembly moving patterns templates designing tasks"
-)
+_ROOMS = """
+analysis/folding analysis/verdict analysis/overconstraint analysis/advice analysis/compliance analysis/assembly
+analysis/moving catalogue/realisation catalogue/patterns making/templates synthesis/designing synthesis/tasks
+"""
 
 TESTS = (
     ["-m", "not slow and not web", "tests/test_examples.py", "tests/test_data.py", "tests/graphs/rank"]

@@ -13,7 +13,7 @@ TESTS = {
     "000": ["papers/test_hyatt_2020.py"],
     "001": ["papers/test_hyatt_2021.py"],
     "002": ["papers/test_tipparthi_2011.py"],
-    "003": ["papers/test_wiener_2016.py", "synth/moving/test_closed_forms.py"],
+    "003": ["papers/test_wiener_2016.py", "synth/analysis/moving/test_closed_forms.py"],
     "004": ["papers/test_wampler_2007.py"],
 }
 

@@ -20,13 +20,13 @@ from graphs.count.report import mobility_report
 from graphs.files.formats import read, read_linkage
 from graphs.geometry import rotated
 from graphs.mechanism.surfaces import Cone, joint_axes
-from synth.candidates.job import CandidateJob
-from synth.conformed.pose import dihedral_angles
-from synth.conformed.rates import ConformedChain, first_order
-from synth.fourbar.closing import grashof_class, kind_of_spherical, spherical_differences, supplementary
-from synth.surfaces.circuit import azimuths, circuits, link_angles, link_pairs, loop_steps
-from synth.surfaces.loop_maps import largest_cone_angle, map_to_cones
-from synth.surfaces.loop_sums import circumradii, cone_angles, loop_roots
+from synth.linkages.conformed.pose import dihedral_angles
+from synth.linkages.conformed.rates import ConformedChain, first_order
+from synth.linkages.fourbar.closing import grashof_class, kind_of_spherical, spherical_differences, supplementary
+from synth.linkages.surfaces.circuit import azimuths, circuits, link_angles, link_pairs, loop_steps
+from synth.linkages.surfaces.loop_maps import largest_cone_angle, map_to_cones
+from synth.linkages.surfaces.loop_sums import circumradii, cone_angles, loop_roots
+from synth.synthesis.candidates.job import CandidateJob
 
 DATA = Path(__file__).resolve().parents[2] / "data"
 PAPER = golden_numbers()["000"]

@@ -15,14 +15,14 @@ from enumerate.conical.rounds import Rounds, count_rounds_by_burnside, placement
 from graphs.count.report import mobility_report
 from graphs.edit.analogues import planar_analogue
 from graphs.files.formats import read
-from synth.candidates.job import CandidateJob
-from synth.conformed.behaviours import COLUMNS, ROWS, behaviour, table4, table_row
-from synth.conformed.rates import ConformedChain
-from synth.fourbar.closing import grashof_class, kind_of_spherical, planar_differences, spherical_differences
-from synth.fourbar.position import output_planar
-from synth.surfaces.circuit import link_angles
-from synth.surfaces.loop_maps import chords, cone_reach, largest_cone_angle, map_to_cones, map_to_cylinders
-from synth.surfaces.loop_sums import circumradii, cone_angles, crossed_area, loop_roots
+from synth.linkages.conformed.behaviours import COLUMNS, ROWS, behaviour, table4, table_row
+from synth.linkages.conformed.rates import ConformedChain
+from synth.linkages.fourbar.closing import grashof_class, kind_of_spherical, planar_differences, spherical_differences
+from synth.linkages.fourbar.position import output_planar
+from synth.linkages.surfaces.circuit import link_angles
+from synth.linkages.surfaces.loop_maps import chords, cone_reach, largest_cone_angle, map_to_cones, map_to_cylinders
+from synth.linkages.surfaces.loop_sums import circumradii, cone_angles, crossed_area, loop_roots
+from synth.synthesis.candidates.job import CandidateJob
 
 DATA = Path(__file__).resolve().parents[2] / "data"
 PAPER = golden_numbers()["001"]

@@ -9,9 +9,9 @@ from second_methods import hoop_sequence
 from graphs.count.report import mobility_report
 from graphs.files.formats import read
 from graphs.reduce.ride_alongs import reduce
-from synth.guidance.order import analyse_order, hoop, pair_name
-from synth.guidance.orientations import read_orientations
-from synth.guidance.synthesis import dyads_of_five
+from synth.linkages.guidance.order import analyse_order, hoop, pair_name
+from synth.linkages.guidance.orientations import read_orientations
+from synth.linkages.guidance.synthesis import dyads_of_five
 
 DATA = Path(__file__).resolve().parents[2] / "data" / "tipparthi"
 

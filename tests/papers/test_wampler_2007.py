@@ -12,7 +12,7 @@ from graphs.count.equations import spherical_system, traditional_cgk, wampler_po
 from graphs.count.report import mobility_report
 from graphs.files.formats import read
 from graphs.mechanism.polyhedron import PolyhedronModel
-from synth.verdict.judged import mobility as judged
+from synth.analysis.verdict._mobility import mobility as judged
 
 DATA = Path(__file__).resolve().parents[2] / "data" / "wampler"
 

@@ -10,7 +10,7 @@ from oracle import numeric_mobility
 from read_strings import string_of_chain
 
 from enumerate.strings.panel_strings import ChainString, chain_scd, count_strings, joint_chain, strings
-from graphs.convert.table import to_polyhedron
+from graphs.convert.conversions import to_polyhedron
 from graphs.count.equations import (
     modified_cgk,
     overconstraint,

@@ -12,7 +12,7 @@ from enumerate.chains import ChainQuery, count_job
 from enumerate.contracted import orbits, states
 from enumerate.kernel import labelling
 from enumerate.machine_code.kernels import _kernels
-from enumerate.runner.running import total_of
+from enumerate.runner._run import total_of
 
 OUTPUTS = {labelling._refine: (4, 5), states._step: (8,), states._slot_of: ()}
 """The functions on lists, and which of their arguments they write to."""

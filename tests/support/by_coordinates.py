@@ -15,7 +15,7 @@ import numpy as np
 import numpy.typing as npt
 
 from graphs.types import Floats
-from synth.surfaces.loop_sums import sign_patterns
+from synth.linkages.surfaces.loop_sums import sign_patterns
 
 __all__ = [
     "PolygonSolutions",
@@ -199,7 +199,7 @@ def polygons_by_coordinates(sides: npt.ArrayLike, largest: float = np.inf) -> Po
     -----
     Starting polygons are drawn on circles of a grid of radii, for every sign pattern, and kept where the gap
     changes sides between neighbours. Two roots of one pattern in one cell may be missed, and double roots are;
-    loop sums (`synth.surfaces.loop_sums`) miss none. Newton's method then solves for all coordinates and K at
+    loop sums (`synth.linkages.surfaces.loop_sums`) miss none. Newton's method then solves for all coordinates and K at
     once.
 
     Examples

@@ -6,8 +6,8 @@ import numpy as np
 
 from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
-from synth.fourbar.closing import can_close
-from synth.surfaces.circuit import link_angles
+from synth.linkages.fourbar.closing import can_close
+from synth.linkages.surfaces.circuit import link_angles
 
 FOUR_BAR = SCGraph(4, dict(zip("OABC", [(0, 1), (1, 2), (2, 3), (3, 0)], strict=True)), [Loop(tuple("OABC"))], ground=0)
 """Joints O, A, B, C; the ground link carries C and O."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from graphs.convert.table import to_sc
+from graphs.convert.conversions import to_sc
 from graphs.count.report import mobility_report
 from graphs.files.formats import read
 from graphs.mechanism.sheet import Sheet

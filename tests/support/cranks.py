@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from synth.guidance.orientations import Orientations
+from synth.linkages.guidance.orientations import Orientations
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""What tests of folding ask of Miura sheets, whose generator is in `synth.patterns`."""
+"""What tests of folding ask of Miura sheets, whose generator is in `synth.catalogue.patterns`."""
 
 from __future__ import annotations
 

@@ -7,7 +7,7 @@ from collections import defaultdict
 import numpy as np
 import shapely
 
-from synth.templates.unfolding import nets_of
+from synth.making.templates.unfolding import nets_of
 
 
 def check_cuts(piece):

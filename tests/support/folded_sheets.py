@@ -168,8 +168,8 @@ def bent_sheet(rng: np.random.Generator, folds: int, panels: int, angle: float) 
 
 def _images(flat: Sheet):
     """Return where each panel of a folded sheet lies, and whether it is face up, panel 0 being so."""
-    from synth.layering.image import folded
-    from synth.layering.orders import flat_pattern
+    from synth.analysis.layering.image import folded
+    from synth.analysis.layering.orders import flat_pattern
 
     pattern = flat_pattern(flat)
     panels = folded(pattern.sheet, pattern.mechanism, pattern.points)

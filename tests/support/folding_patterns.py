@@ -10,7 +10,7 @@ from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet
 from graphs.rank.exact import independent_cycles
-from synth.patterns.panels import Corners, Place, sheet_of_panels
+from synth.catalogue.patterns.panels import Corners, Place, sheet_of_panels
 
 
 def pleated_hypar(rings: int, *, middle_creased: bool) -> Sheet:

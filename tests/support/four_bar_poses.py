@@ -12,9 +12,9 @@ from graphs.errors import InvariantError
 from graphs.geometry import across, rotated, sectors, unit
 from graphs.mechanism.surfaces import checked_cone_angle, joint_axes
 from graphs.types import Floats
-from synth.conformed.pose import dihedral_angles
-from synth.fourbar.position import output_spherical
-from synth.surfaces.circuit import azimuths, link_angles, wrapped
+from synth.linkages.conformed.pose import dihedral_angles
+from synth.linkages.fourbar.position import output_spherical
+from synth.linkages.surfaces.circuit import azimuths, link_angles, wrapped
 
 
 @dataclass(frozen=True, slots=True)

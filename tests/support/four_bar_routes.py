@@ -1,4 +1,4 @@
-"""Spherical four-bars through configurations in closed form: nothing here is shared with the walk of `synth.motion`.
+"""Spherical four-bars through configurations in closed form: nothing here is shared with the walk of `synth.analysis.motion`.
 
 The crank turns about A and carries B, the follower about D and carries C; arcs BC and CD are rigid. At a crank angle
 the triangle B, C, D has two mirror images, told apart by the sign of det(B, C, D), and none where the arc BD is outside

@@ -21,7 +21,7 @@ from pathlib import Path
 from click.testing import CliRunner
 from mutated_files import mutated, seeds
 
-from graphs.convert.table import CONVERSIONS, FORMS
+from graphs.convert.conversions import CONVERSIONS, FORMS
 from graphs.files.formats import WRITERS
 from synth.cli.main import main as synth_command
 

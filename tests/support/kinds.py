@@ -31,7 +31,7 @@ WORLD = (
     "tests/machines",
     "tests/mutants",
     "tests/synth/cli",
-    "tests/synth/viewer",
+    "tests/synth/making/viewer",
     "tests/test_examples.py",
     "tests/test_front_door.py",
     "tests/test_makefile.py",

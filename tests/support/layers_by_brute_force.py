@@ -1,7 +1,7 @@
 """Layer orders of grids and vertices of equal sectors by trying everything: creases flat or folded, all permutations.
 
 Faces are squares of a grid, or sectors round a vertex, and lie over cells of the same grid. Nothing is shared with
-`synth.layering`.
+`synth.analysis.layering`.
 """
 
 from __future__ import annotations

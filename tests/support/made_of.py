@@ -21,16 +21,15 @@ from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet, with_all_edges
 from graphs.mechanism.solids import HingedSolids
 from graphs.rank.exact import independent_cycles
-from synth.conformed.linkages import loop_on_cones
-from synth.folding.derivatives import SheetDerivatives, vertex_places
-from synth.folding.motion import fold
-from synth.motion.closure import ClosureEquations, corrected
-from synth.motion.derivatives import BodyTree, Sensitivity, dependence_on_axes, derivatives_by_parameters
-from synth.motion.linkage import PosedLinkage, link_motions, linkage_of_axes, linkage_of_sheet
-from synth.motion.path import driven_path
-from synth.moving.made import posed_on_surface
-from synth.patterns import hinged_rings, hinged_rings as five_bars
-from synth.patterns.creases import (
+from synth.analysis.folding.derivatives import SheetDerivatives, vertex_places
+from synth.analysis.folding.motion import fold
+from synth.analysis.motion.closure import ClosureEquations, corrected
+from synth.analysis.motion.derivatives import BodyTree, Sensitivity, dependence_on_axes, derivatives_by_parameters
+from synth.analysis.motion.linkage import PosedLinkage, link_motions, linkage_of_axes, linkage_of_sheet
+from synth.analysis.motion.path import driven_path
+from synth.analysis.moving._configuration_of import posed_on_surface
+from synth.catalogue.patterns import hinged_rings, hinged_rings as five_bars
+from synth.catalogue.patterns.creases import (
     chickenwire,
     fan,
     folded_miura,
@@ -40,7 +39,8 @@ from synth.patterns.creases import (
     waterbomb,
     yoshimura,
 )
-from synth.patterns.hinged_rings import kaleidocycle
+from synth.catalogue.patterns.hinged_rings import kaleidocycle
+from synth.linkages.conformed.linkage_behaviour import loop_on_cones
 
 
 @dataclass

@@ -12,9 +12,9 @@ from typing import Any
 import networkx as nx
 from oripa import opx_text
 
-from graphs.convert.table import to_sc, to_vertex_edge
+from graphs.convert.conversions import to_sc, to_vertex_edge
 from graphs.files.formats import READERS, read, write
-from synth.simulation import write_model
+from synth.making.simulation import write_model
 
 EXTREMES = [b"0", b"-1", b"1e308", b"-1e309", b"NaN", b"null", b"99999999999999999999", b"1e-320", b"2000001", b"true", b'""',
             b"[]", b"{}", b"\xff", b"<", b"&", b"\x00", b"0.1", b"3"]  # fmt: skip

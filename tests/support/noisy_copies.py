@@ -10,10 +10,10 @@ import numpy as np
 
 from graphs.mechanism.precision import extent_of
 from graphs.mechanism.sheet import Sheet
-from synth.folding.configuration import configuration_of_sheet
-from synth.patterns import generate
-from synth.patterns.creases import polygon_twist
-from synth.verdict.judged import verdict_of_motion
+from synth.analysis.folding.configuration import configuration_of_sheet
+from synth.analysis.verdict._mobility import verdict_of_motion
+from synth.catalogue.patterns import generate
+from synth.catalogue.patterns.creases import polygon_twist
 
 
 def generated(name, **parameters):

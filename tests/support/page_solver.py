@@ -11,14 +11,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from synth.folding.collisions import PanelShapes
-from synth.motion.closure import ClosureEquations, corrected
-from synth.motion.linkage import link_motions
-from synth.motion.path import PathOptions, driven_path
-from synth.viewer.linkage import solver_data
-from synth.viewer.shown import MovingLinkage
+from synth.analysis.folding.panel_collisions import PanelShapes
+from synth.analysis.motion.closure import ClosureEquations, corrected
+from synth.analysis.motion.linkage import link_motions
+from synth.analysis.motion.path import PathOptions, driven_path
+from synth.making.viewer.linkage import solver_data
+from synth.making.viewer.page_data import MovingLinkage
 
-WEB = Path(__file__).resolve().parents[2] / "synth" / "viewer" / "web"
+WEB = Path(__file__).resolve().parents[2] / "synth" / "making" / "viewer" / "web"
 
 
 def node() -> str:

@@ -6,9 +6,9 @@ import numpy.typing as npt
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.mechanism.surfaces import checked_cone_angle
 from graphs.types import Floats
-from synth.fourbar.closing import rounding_of
-from synth.fourbar.position import _ends, _within
-from synth.surfaces.loop_maps import largest_cone_angle
+from synth.linkages.fourbar.closing import rounding_of
+from synth.linkages.fourbar.position import _ends, _within
+from synth.linkages.surfaces.loop_maps import largest_cone_angle
 
 
 def transmission_planar(lengths: npt.ArrayLike, theta: npt.ArrayLike) -> Floats:

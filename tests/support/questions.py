@@ -10,12 +10,12 @@ from pathlib import Path
 from typing import Any
 
 import synth
+from graphs.convert.conversions import CONVERSIONS, FORMS, Mechanism, to_sc
 from graphs.convert.duality import mechanism_of_sheet
-from graphs.convert.table import CONVERSIONS, FORMS, Mechanism, to_sc
 from graphs.count.report import mobility_report
 from graphs.errors import SynthedraError
 from graphs.files.formats import WRITERS, read_all
-from synth.verdict import mobility_of_type
+from synth.analysis.verdict import mobility_of_type
 
 Question = Callable[[], object]
 

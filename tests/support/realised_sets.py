@@ -10,8 +10,8 @@ from enumerate.scd.jobs import scd_rows
 from graphs.identity.drawings import mechanism_from_map_id
 from graphs.mechanism.drawing import FaceKind
 from graphs.rank.pose import pose_mobility
-from synth.folding.configuration import configuration_of_sheet
-from synth.folding.motion import fold
+from synth.analysis.folding.configuration import configuration_of_sheet
+from synth.analysis.folding.motion import fold
 
 TURN = radians(10.0)
 

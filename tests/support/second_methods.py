@@ -7,7 +7,7 @@ from functools import cmp_to_key
 import numpy as np
 import numpy.typing as npt
 
-from graphs.answer.jointed import screws_of_joints
+from graphs.answer.mobility_of_joints import screws_of_joints
 from graphs.joints.linkage import JointedLinkage
 from graphs.loops.loop import signed_cycle
 from graphs.mechanism.sc import SCGraph
@@ -15,8 +15,8 @@ from graphs.rank.exact import independent_cycles
 from graphs.rank.singular_values import spectrum
 from graphs.tolerances import DOUBLE
 from graphs.types import Floats
-from synth.guidance.order import Direction
-from synth.guidance.orientations import Orientations, Pair, unit_vector
+from synth.linkages.guidance.order import Direction
+from synth.linkages.guidance.orientations import Orientations, Pair, unit_vector
 
 __all__ = ["freedoms_by_screws", "hoop_sequence", "pole_axes", "shadow_allows"]
 

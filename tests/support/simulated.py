@@ -8,10 +8,10 @@ import pytest
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.solids import HingedSolids
 from graphs.tolerances import DOUBLE
-from synth.motion.closure import corrected, exactly_held
-from synth.moving.made import configuration_of
-from synth.simulation.assembly import AssemblyOptions, assembly_of
-from synth.simulation.mjcf import STEP, mjcf_bytes
+from synth.analysis.motion.closure import corrected, exactly_held
+from synth.analysis.moving._configuration_of import configuration_of
+from synth.making.simulation.assembly import AssemblyOptions, assembly_of
+from synth.making.simulation.mjcf import STEP, mjcf_bytes
 
 SECONDS = 10.0
 BESIDE = 0.05

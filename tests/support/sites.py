@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from enumerate.runner.running import run
-from synth.atlas.opened import Atlas
-from synth.atlas.site_pages import SiteSink, site_of
+from enumerate.runner._run import run
+from synth.synthesis.atlas.atlas_file import Atlas
+from synth.synthesis.atlas.site_pages import SiteSink, site_of
 
 
 def write_site(atlas: Atlas, path: Path, title: str = "") -> Path:

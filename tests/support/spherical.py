@@ -5,8 +5,8 @@ import numpy as np
 from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.rank.exact import independent_cycles
-from synth.motion.closure import ClosureEquations
-from synth.motion.linkage import linkage_of_axes
+from synth.analysis.motion.closure import ClosureEquations
+from synth.analysis.motion.linkage import linkage_of_axes
 
 FOUR_BAR = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)])
 WATT = SCGraph(6, [(0, 1), (1, 2), (2, 3), (3, 0), (3, 4), (4, 5), (5, 0)])

@@ -10,8 +10,8 @@ ROOT = Path(__file__).resolve().parent.parent.parent
 
 _FILES = {
     "__init__.py": '"""A toy."""\n',
-    "inner.py": "from enumerate.kernel.compiled import compiled\n\n\n@compiled\ndef inner(x):\n    return x + 1\n",
-    "outer.py": "from enumerate.kernel.compiled import compiled\nfrom toy.inner import inner\n\n\n"
+    "inner.py": "from enumerate.kernel._compiled import compiled\n\n\n@compiled\ndef inner(x):\n    return x + 1\n",
+    "outer.py": "from enumerate.kernel._compiled import compiled\nfrom toy.inner import inner\n\n\n"
     "@compiled\ndef outer(x):\n    return 10 * inner(x)\n",
 }
 

@@ -9,15 +9,15 @@ from scipy.spatial.transform import Rotation
 from spherical import FOUR_BAR, STEPHENSON, WATT, spherical
 
 from graphs.mechanism.sc import SCGraph
-from synth.conformed.linkages import loop_on_cones
-from synth.designing.dimensions import AxisDimensions, ConeDimensions, Dimensions, ParameterDimensions
-from synth.designing.poses import DesignFrame, DesignPoint, PosedDesign
-from synth.designing.problem import DesignProblem
-from synth.designing.wishes import LinkOrientation, PointPlace, WishedConfiguration, Wishes
-from synth.folding.motion import fold
-from synth.motion.closure import ClosureEquations
-from synth.motion.path import driven_path
-from synth.patterns.catalogue import GENERATORS
+from synth.analysis.folding.motion import fold
+from synth.analysis.motion.closure import ClosureEquations
+from synth.analysis.motion.path import driven_path
+from synth.catalogue.patterns.generators import GENERATORS
+from synth.linkages.conformed.linkage_behaviour import loop_on_cones
+from synth.synthesis.designing.dimensions import AxisDimensions, ConeDimensions, Dimensions, ParameterDimensions
+from synth.synthesis.designing.poses import DesignFrame, DesignPoint, PosedDesign
+from synth.synthesis.designing.problem import DesignProblem
+from synth.synthesis.designing.wishes import LinkOrientation, PointPlace, WishedConfiguration, Wishes
 
 INPUTS = 8
 _STEP, _TRIES, _STEPS, _FEWEST = 0.1, 400, 14, 12

@@ -8,7 +8,7 @@ import pytest
 from commands import run
 
 import synth
-from synth.viewer import pages
+from synth.making.viewer import pages
 
 ROOT = Path(__file__).resolve().parents[2]
 MECHANISMS = {

@@ -17,7 +17,7 @@ import numpy as np
 from graphs.convert.faces import creases_on_no_face, joins_faces, traced_anew, with_simple_faces
 from graphs.errors import FileError, numbered
 from graphs.files.text import Checker, json_text, load_json
-from graphs.limits import most
+from graphs.input_limits import most
 from graphs.mechanism.precision import flattened, lies_flat, written_by
 from graphs.mechanism.sheet import FLAT, HINGES, Edge, Sheet, WrittenPrecision
 

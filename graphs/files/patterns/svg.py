@@ -32,7 +32,7 @@ from graphs.files.patterns.legend import (
 )
 from graphs.files.patterns.lines import traced_sheet
 from graphs.files.text import Checker, in_degrees, read_text
-from graphs.limits import how_to_raise, most
+from graphs.input_limits import how_to_raise, most
 from graphs.mechanism.precision import digits_of, flat_places
 from graphs.mechanism.sheet import Sheet, WrittenPrecision, sides_of_face, with_all_edges
 from graphs.printing import plain

@@ -13,8 +13,8 @@ import numpy as np
 from graphs.errors import FileError, numbered, shown
 from graphs.files.text import Checker, read_text
 from graphs.geometry import rotations, unit
+from graphs.input_limits import how_to_raise, most
 from graphs.joints.linkage import JointedLinkage, JointKind, JointPlace, plain_vector
-from graphs.limits import how_to_raise, most
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.solids import Axis, HingedSolids
 from graphs.types import Floats, JointId

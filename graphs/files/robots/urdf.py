@@ -1,7 +1,7 @@
 """URDF: a tree of links with all joints at zero, and the loops that a file of JSON beside it has.
 
 *URDF XML specification*, ROS wiki. The file beside ``arm.urdf`` is ``arm.loops.json``, as
-`synth.simulation.urdf` writes it.
+`synth.making.simulation.urdf` writes it.
 """
 
 from pathlib import Path

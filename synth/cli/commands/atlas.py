@@ -9,7 +9,7 @@ from typing import Any
 
 import click
 
-import synth.atlas
+import synth.synthesis.atlas
 from graphs.errors import UnsolvableError, numbered
 from graphs.printing import TableBlock, plain
 from synth.cli import options, output as out
@@ -78,15 +78,15 @@ def build(orders_of: tuple[str, ...], running: RunOptions, **types: Any) -> None
 
     Continue a stopped build with --resume. For the columns, see `synth atlas query ATLAS.sqlite --columns help`.
     """
-    from synth.atlas.building import AtlasJob, AtlasSink
+    from synth.synthesis.atlas.building import AtlasJob, AtlasSink
 
     if running.output is None:
         raise click.UsageError("an atlas requires -o FILE.sqlite")
     orders = tuple(name for name in orders_of if name != "none")
-    plan = synth.atlas.AtlasPlan(orders_of=orders, **types)
+    plan = synth.synthesis.atlas.AtlasPlan(orders_of=orders, **types)
     sink = partial(AtlasSink, running.output, plan.command, resume=running.resume, force=running.force)
     run_resumable(AtlasJob(plan), sink, running)
-    summary = synth.atlas.open_atlas(str(running.output)).about()
+    summary = synth.synthesis.atlas.open_atlas(str(running.output)).about()
     if running.as_json:
         out.print_json({"output": running.output, **summary})
         return
@@ -137,7 +137,9 @@ def query(
       synth atlas query ATLAS.sqlite "kind = 'chain'" --columns id,kind,name --column edges=mine:edges -o chains.tex
     """
     if columns == "help":
-        meanings = [(name, " ".join(column.kinds), column.says) for name, column in synth.atlas.COLUMNS.items()]
+        meanings = [
+            (name, " ".join(column.kinds), column.says) for name, column in synth.synthesis.atlas.COLUMNS.items()
+        ]
         out.console().print(TableBlock(("column", "kinds", "meaning"), meanings))
         return
     if statement is not None and (condition or columns or sort):
@@ -145,7 +147,7 @@ def query(
     if output is not None and as_json:
         raise click.UsageError("-o and --json exclude each other; try one of them")
     out.check_output(output if output is None or Path(output).suffix else None, force=force)
-    opened = synth.atlas.open_atlas(atlas)
+    opened = synth.synthesis.atlas.open_atlas(atlas)
     if statement is not None:
         rows = opened.sql(statement, limit=limit, seconds=seconds)
     else:
@@ -154,7 +156,7 @@ def query(
     if own:
         rows = rows.with_columns(dict(own))
     if output is not None:
-        from synth.atlas.written import write_rows
+        from synth.synthesis.atlas.export import write_rows
 
         out.tell_written(*write_rows(rows, output, force=force))
     elif as_json:
@@ -177,10 +179,10 @@ def show(atlas: str, type_id: str, output: str | None, force: bool, as_json: boo
     ID is an id or a name, such as "Watt chain". The types related to it are listed too.
     """
     out.check_output(output, force=force)
-    report = synth.atlas.open_atlas(atlas).show(type_id)
+    report = synth.synthesis.atlas.open_atlas(atlas).show(type_id)
     if output is not None:
         from graphs.files.atomic import write_text
-        from synth.atlas.written import sheet_of_type
+        from synth.synthesis.atlas.export import sheet_of_type
 
         text = report.values.get("fold_file")
         if text is None:
@@ -202,9 +204,9 @@ def page(atlas: str, condition: str, folder: str, title: str, workers: int | Non
 
     The site needs no server and no network: open index.html. CONDITION is that of `synth atlas query`.
     """
-    from synth.atlas.site_pages import SiteSink, site_of
+    from synth.synthesis.atlas.site_pages import SiteSink, site_of
 
-    site, first = site_of(synth.atlas.open_atlas(atlas), condition, title)
+    site, first = site_of(synth.synthesis.atlas.open_atlas(atlas), condition, title)
     run_whole(site, SiteSink(folder, first), RunOptions(folder, workers, quiet=quiet))
     out.tell_written(Path(folder) / "index.html")
 
@@ -218,12 +220,12 @@ def find(atlas: str, files: tuple[str, ...], as_json: bool) -> None:
 
     The types one edit away are listed too.
     """
-    opened = synth.atlas.open_atlas(atlas)
+    opened = synth.synthesis.atlas.open_atlas(atlas)
     failures: list[str] = []
     answers = []
     for entry in entries(files, failures):
         with out.about(entry.label):
-            answer = synth.atlas.find_type(opened, entry.mechanism)
+            answer = synth.synthesis.atlas.find_type(opened, entry.mechanism)
         answers.append({"file": entry.label, **answer.to_json()})
         if not as_json:
             click.echo(out.plain(entry.label, 4096))
@@ -254,13 +256,13 @@ def motions(atlas: str, members: int, max_links: int, seed: int, force: bool, as
     Example:
       synth atlas motions atlas.sqlite --members 1000
     """
-    from synth.atlas.motions import planned_motions
+    from synth.synthesis.atlas.motions import planned_motions
 
-    opened = synth.atlas.open_atlas(atlas)
+    opened = synth.synthesis.atlas.open_atlas(atlas)
     size = planned_motions(opened, members, max_links=max_links)
     click.echo(f"tracing {size.blocks()[0]} in the file, at most 300 MB of memory", err=True)
     with out.progress_line() as show:
-        table = synth.atlas.add_motions(
+        table = synth.synthesis.atlas.add_motions(
             opened, members=members, max_links=max_links, seed=seed, force=force,
             report=lambda done: show(f"{done} of {size.members} members"),
         )  # fmt: skip
@@ -309,13 +311,13 @@ def like(
       synth atlas like data/orientations/tipparthi.json atlas.sqlite
       synth atlas like folded.fold atlas.sqlite --links 0,2 --fit 64 -o start.json
     """
-    from synth.atlas.motions import stored_motions
+    from synth.synthesis.atlas.motions import stored_motions
 
     out.check_output(output, force=force)
-    opened = synth.atlas.open_atlas(atlas)
+    opened = synth.synthesis.atlas.open_atlas(atlas)
     size = stored_motions(opened)
     click.echo(f"searching {size.blocks()[0]} in the file, at most 300 MB of memory", err=True)
-    answer = synth.atlas.like(opened, motion, links=links, closed=closed, sparse=sparse, limit=best, fit=fit)
+    answer = synth.synthesis.atlas.like(opened, motion, links=links, closed=closed, sparse=sparse, limit=best, fit=fit)
     if output is not None:
         if not answer.rows:
             raise UnsolvableError("-o requires a member that moves so far, and the atlas has none")

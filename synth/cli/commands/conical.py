@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 import click
 
 import graphs.files
-import synth.candidates
-import synth.conformed
+import synth.linkages.conformed
+import synth.synthesis.candidates
 from graphs.errors import FileError
 from synth.cli import options
 from synth.cli.output import about, plain, print_note
@@ -91,23 +91,25 @@ def conical(
         _print_formulas(chain, grounds)
         return
     filters = [
-        synth.candidates.Filter(column, least=each.least, most=each.most)
+        synth.synthesis.candidates.Filter(column, least=each.least, most=each.most)
         for column in _LIMITED
         if (each := limits[column])
     ]
     if singular is not None:
-        filters.append(synth.candidates.Filter("singular", singular))
+        filters.append(synth.synthesis.candidates.Filter("singular", singular))
     if linkage is not None:
-        filters.append(synth.candidates.Filter("linkage", linkage.replace("-", " ")))
+        filters.append(synth.synthesis.candidates.Filter("linkage", linkage.replace("-", " ")))
     surface = options.surface_from_options(cone_angle, radius)
-    job = synth.candidates.CandidateJob(chain, grounds, slots, opposites, samples, seed, surface, tuple(filters))
+    job = synth.synthesis.candidates.CandidateJob(
+        chain, grounds, slots, opposites, samples, seed, surface, tuple(filters)
+    )
     if not only_count:
         run_rows(job, running, lambda sink: _around(sink, job, sort, pictures), numbered_rows=True)
         _say_next(running)
     elif filters or samples is not None:
         if method is not None:
             raise click.UsageError("--method counts all candidates, without filters and --sample")
-        run_count(synth.candidates.CandidateCountJob(job), running)
+        run_count(synth.synthesis.candidates.CandidateCountJob(job), running)
     else:
         from enumerate.conical.query import ConicalCountJob
 
@@ -116,7 +118,7 @@ def conical(
 
 def _say_next(running: RunOptions) -> None:
     """Say which command makes a linkage that moves of a row."""
-    from synth.drawing.catalogue import is_catalogue
+    from synth.making.drawing.list_pages import is_catalogue
 
     if running.as_json or running.quiet or (running.output is not None and not is_catalogue(running.output)):
         return
@@ -134,7 +136,7 @@ def _chain(name: str) -> synth.SCGraph:
     """Return the chain of a name, an id or a file."""
     from enumerate.chains.names import chain_named, chain_names
     from graphs.files.formats import is_id
-    from synth.candidates.listing import chain_of
+    from synth.synthesis.candidates.listing import chain_of
 
     known = chain_names()
     code = chain_named(name) if name.lower() in known else name
@@ -155,10 +157,10 @@ def _grounds(chain: synth.SCGraph, ground: str | None) -> tuple[LinkId | None, .
     return tuple(links_apart(chain.joints)) if ground == "all" else (options.link_of(chain, ground),)
 
 
-def _around(sink: Sink, job: synth.candidates.CandidateJob, sort: str | None, pictures: str | None) -> Sink:
+def _around(sink: Sink, job: synth.synthesis.candidates.CandidateJob, sort: str | None, pictures: str | None) -> Sink:
     """Sort the rows before they go to the sink, and draw them."""
     if pictures is not None:
-        sink = synth.candidates.PictureSink(sink, job, Path(pictures))
+        sink = synth.synthesis.candidates.PictureSink(sink, job, Path(pictures))
     if sort is not None:
         from enumerate.runner import SortedSink
 
@@ -172,8 +174,8 @@ def _print_formulas(chain: synth.SCGraph, grounds: tuple[LinkId | None, ...]) ->
     for ground in grounds:
         if ground is None:
             raise click.UsageError("--formulas requires --ground LINK, or --ground all")
-        conformed = synth.conformed.ConformedChain.of(chain, ground)
+        conformed = synth.linkages.conformed.ConformedChain.of(chain, ground)
         click.echo(f"link {plain(ground)} fixed, joint: outward rate, to one common scale")
-        for joint, rates in zip(conformed.joints, synth.conformed.outward_rates(conformed), strict=True):
+        for joint, rates in zip(conformed.joints, synth.linkages.conformed.outward_rates(conformed), strict=True):
             if rates:
                 click.echo(f"  {plain(joint)}: {plain(rates[0].text(conformed.joints), 2000)}")

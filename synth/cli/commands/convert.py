@@ -157,7 +157,7 @@ def convert(
         of_solids = of_solids or (model is None and Path(target).suffix.lower() == ".obj" and _has_shapes(mechanism))
         if table is not None:
             from graphs.files.atomic import write_text
-            from synth.moving import table_text
+            from synth.analysis.moving import table_text
 
             text, lost = table_text(mechanism, table)
             write_text(Path(target), text, force=force)
@@ -176,7 +176,7 @@ def convert(
         keys = {"input": source, "output": target, "kind": type(mechanism).__name__, "lost": list(lost)}
         print_json({**keys, "notes": list(notes)})
         return
-    from graphs.convert.table import kind_in_words
+    from graphs.convert.conversions import kind_in_words
 
     click.echo(f"written: {plain(target, 4096)} (from: {kind_in_words(mechanism)})")
     tell_lost(lost)
@@ -215,9 +215,9 @@ def _write_model(
 ) -> tuple[tuple[str, ...], tuple[str, ...]]:  # fmt: skip
     """Write a model; return what its format does not hold, and notes on the motion."""
     from graphs.mechanism.solids import HingedSolids
-    from synth.moving import configuration_of
-    from synth.simulation.assembly import DENSITY, AssemblyOptions, in_unit_of
-    from synth.simulation.writing import write_assembly
+    from synth.analysis.moving import configuration_of
+    from synth.making.simulation.assembly import DENSITY, AssemblyOptions, in_unit_of
+    from synth.making.simulation.writing import write_assembly
 
     if "number" in values or "gap" in values:
         raise click.UsageError("--cone and --gap: not with --as")
@@ -249,13 +249,13 @@ def _write_solids(
 ) -> tuple[tuple[str, ...], tuple[str, ...]]:
     """Write solids; return what their format does not hold, and notes on their size."""
     from graphs.mechanism.solids import HingedSolids
-    from synth.moving.made import sheet_of
-    from synth.templates.solids import fitted_size, write_solids
+    from synth.analysis.moving._configuration_of import sheet_of
+    from synth.making.templates.solids import fitted_size, write_solids
 
     if isinstance(mechanism, synth.SurfaceLinkage):
         return _write_on_surface(mechanism, target, force=force, **solid), ()
     if isinstance(mechanism, HingedSolids) and mechanism.shapes:
-        from synth.templates.solids import write_shapes
+        from synth.making.templates.solids import write_shapes
 
         if solid:
             spelled = ", ".join(_OF_SOLIDS[name] for name in solid)
@@ -273,9 +273,9 @@ def _write_solids(
 def _write_on_surface(
     linkage: SurfaceLinkage, target: str, *, force: bool, number: int | None = None, **solid: float
 ) -> tuple[str, ...]:
-    from synth.templates.on_surface import TemplateSizes, surface_of
-    from synth.templates.solids import THICKNESS, write_linkage_on_surface
-    from synth.templates.template import linkage_on_a_surface
+    from synth.making.templates.on_surface import TemplateSizes, surface_of
+    from synth.making.templates.solids import THICKNESS, write_linkage_on_surface
+    from synth.making.templates.template import linkage_on_a_surface
 
     if "scale" in solid:
         raise click.UsageError("--scale is for panels; try --size, the length of the ruling lines")

@@ -8,15 +8,15 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-import synth.designing
+import synth.synthesis.designing
 from graphs.errors import FileError
 from synth.cli import options
 from synth.cli.output import about, check_output, print_json, print_result, progress_line, tell_written
 from synth.cli.runner import RunOptions, run_resumable
 
 if TYPE_CHECKING:
-    from synth.designing import Design, Designs
-    from synth.designing.job import DesignJob
+    from synth.synthesis.designing import Design, Designs
+    from synth.synthesis.designing.job import DesignJob
 
 
 @click.command()
@@ -74,7 +74,7 @@ def design(
     Exit status 1: no design.
     """
     from synth.cli.output import check_picture
-    from synth.designing.job import DesignJob
+    from synth.synthesis.designing.job import DesignJob
 
     if (resume or workers is not None) and store is None:
         raise click.UsageError("--resume and --workers require --store STORE")
@@ -84,7 +84,7 @@ def design(
         check_output(place, force=force)
     if not Path(wishes).exists():
         raise FileError(wishes, "", "no such file", "a file of wishes")
-    synth.designing.read_wishes(wishes)
+    synth.synthesis.designing.read_wishes(wishes)
     frozen, weights = tuple(sorted({number - 1 for number in freeze})), options.weights_of(weigh)
     begun = () if begin is None else _begun(begin)
     job = DesignJob(mechanism, wishes, starts, spread, seed, frozen, weights, begun)
@@ -105,7 +105,7 @@ def _begun(store: str) -> tuple[tuple[float, ...], ...]:
     """Return the numbers of the designs in a store, best first."""
     from enumerate.runner.job import row_as_dict
     from enumerate.runner.store import read_rows
-    from synth.designing.job import COLUMNS, DesignJob
+    from synth.synthesis.designing.job import COLUMNS, DesignJob
 
     if not Path(store).exists():
         raise FileError(store, "", "no such file", "a store that --store kept")
@@ -115,7 +115,7 @@ def _begun(store: str) -> tuple[tuple[float, ...], ...]:
 
 def _found(job: DesignJob) -> Designs:
     """Return the designs of all starts; those that there are when the user stops it."""
-    from synth.designing.designs import compared
+    from synth.synthesis.designing.designs import compared
 
     found: list[Design] = []
     with progress_line() as show:
@@ -136,8 +136,8 @@ def _from_store(job: DesignJob, running: RunOptions) -> Designs:
     """Run the starts into a store, and return the designs in it."""
     from enumerate.runner.job import row_as_dict
     from enumerate.runner.store import SqliteSink, read_rows
-    from synth.designing.designs import compared
-    from synth.designing.job import COLUMNS
+    from synth.synthesis.designing.designs import compared
+    from synth.synthesis.designing.job import COLUMNS
 
     path = Path(str(running.output))
     if path.suffix != ".sqlite":

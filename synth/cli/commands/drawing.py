@@ -12,11 +12,11 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import click
 
-import synth.drawing
-import synth.guidance
-import synth.realisation
-import synth.templates
-import synth.viewer
+import synth.catalogue.realisation
+import synth.linkages.guidance
+import synth.making.drawing
+import synth.making.templates
+import synth.making.viewer
 from graphs.errors import InvariantError
 from graphs.files.outputs import check_writable, unknown_extension
 from synth.cli import options, reading
@@ -25,9 +25,9 @@ from synth.cli.reading import AT, DRAWN, MECHANISM, MODE, PRECISION, NamedMechan
 
 if TYPE_CHECKING:
     from enumerate.runner import Limits
-    from synth.drawing.catalogue import CatalogueEntry
-    from synth.realisation.realised import Kind as RealisedKind
-    from synth.templates.hinges import HingeKind
+    from synth.catalogue.realisation._realise import Kind as RealisedKind
+    from synth.making.drawing.list_pages import CatalogueEntry
+    from synth.making.templates.hinges import HingeKind
 
 _KINDS = (
     "pattern", "marks", "repairs", "flat-folded", "folded", "chain", "graph", "model", "solids", "cone", "cylinder",
@@ -99,19 +99,19 @@ def draw(
       synth draw k1:Cr -o four-bar.svg
       synth draw chains.sqlite -o catalogue.pdf --where symmetry=2.. --where planar=1
     """
-    from synth.drawing.catalogue import is_catalogue
+    from synth.making.drawing.list_pages import is_catalogue
 
     check_picture(output, force=force)
     if is_catalogue(file):
         conditions = dict(map(_condition, where))
-        realise = synth.realisation.sheet_of_type if sheets else None
+        realise = synth.catalogue.realisation.sheet_of_type if sheets else None
         _draw_catalogue(file, output, {"kind": kind, "realise": realise}, conditions, paper, force)
         return
     if where:
         raise click.UsageError("--where requires a catalogue: a store, rows, a graph6 file or a folder")
     from graphs.files.native import holds_orientations
 
-    drawable = synth.guidance.read_orientations(file) if holds_orientations(file) else read(file)
+    drawable = synth.linkages.guidance.read_orientations(file) if holds_orientations(file) else read(file)
     with about(file):
         scene = synth.draw(drawable, kind, **look)
     scene.save(output, paper=paper, force=force)
@@ -121,7 +121,7 @@ def draw(
 def _draw_catalogue(
     file: str, output: str, look: dict[str, Any], where: dict[str, Limits | str], paper: str, force: bool
 ) -> None:
-    from synth.drawing.catalogue import catalogue_entries, catalogue_pages, write_catalogue
+    from synth.making.drawing.list_pages import catalogue_entries, catalogue_pages, write_catalogue
 
     failures: list[str] = []
     entries = _counted(catalogue_entries(file, where, failures))
@@ -177,7 +177,7 @@ def view(files: tuple[str, ...], output: str | None, force: bool) -> None:
       synth view
       synth view data/linkages/bennett.json data/wiener/miura-4x4.fold -o page.html
     """
-    from synth.viewer.pages import check_built
+    from synth.making.viewer.pages import check_built
 
     if output is not None:
         if Path(output).suffix.lower() not in (".html", ".htm"):
@@ -188,22 +188,22 @@ def view(files: tuple[str, ...], output: str | None, force: bool) -> None:
             "the workbench requires pip install 'synthedra[view]'; a page without it requires -o page.html"
         )
     check_built()
-    mechanisms: list[synth.viewer.Shown] = []
+    mechanisms: list[synth.making.viewer.Shown] = []
     for file in files:
         mechanism = read(file)
         with about(file):
-            mechanisms.append(synth.viewer.shown_of(precise_sheet(mechanism), Path(file).name))
+            mechanisms.append(synth.making.viewer.shown_of(precise_sheet(mechanism), Path(file).name))
     if output is None:
         _serve(mechanisms, [Path(file).read_bytes() if Path(file).is_file() else None for file in files])
         return
     if not mechanisms:
         raise click.UsageError("a page requires at least one FILE")
-    synth.viewer.ViewPage(synth.viewer.page(mechanisms), tuple(mechanisms)).save(output, force=force)
+    synth.making.viewer.ViewPage(synth.making.viewer.page(mechanisms), tuple(mechanisms)).save(output, force=force)
     tell_written(output)
 
 
-def _serve(mechanisms: list[synth.viewer.Shown], sources: list[bytes | None]) -> None:
-    from synth.viewer.workbench.app import serve
+def _serve(mechanisms: list[synth.making.viewer.Shown], sources: list[bytes | None]) -> None:
+    from synth.making.viewer.workbench.app import serve
 
     def opened(address: str) -> None:
         click.echo(f"workbench: {address}  (Ctrl-C ends it)")
@@ -297,11 +297,11 @@ def template(
       synth template data/surfaces/fig11-stephenson.json --size 120 -o stephenson.pdf
       synth template types.sqlite --row 7 --size 150 -o seventh.svg
     """
-    from synth.conformed.orders import OrderOnCircle
     from synth.exporters import EXPORTERS
+    from synth.linkages.conformed.orders import OrderOnCircle
 
     try:
-        paper = synth.templates.paper_named(page)
+        paper = synth.making.templates.paper_named(page)
     except InvariantError as error:
         raise click.BadParameter(str(error), param_hint="--page") from None
     check_writable(output, EXPORTERS["templates"], force=force)
@@ -321,7 +321,7 @@ def template(
     elif bare:
         notes.append("not written: the assembly instructions, with a picture (a .pdf or .svg of pages has them)")
     with about(source.name):
-        places = synth.templates.write_template(pieces, output, paper=paper, laser=laser, kerf=kerf, force=force)
+        places = synth.making.templates.write_template(pieces, output, paper=paper, laser=laser, kerf=kerf, force=force)
     if as_json:
         print_json({"file": file, "output": list(map(str, places)), **pieces.to_json()})
     else:
@@ -341,10 +341,10 @@ def _without(look: dict[str, Any], others: dict[str, Any], required: str) -> dic
 
 def _of_panels(
     source: NamedMechanism, hinge_kind: HingeKind | Literal["fold"], hinge_width: float | None, **look: Any
-) -> tuple[synth.templates.Template, list[str]]:
+) -> tuple[synth.making.templates.Template, list[str]]:
     """Return the template of panels, and notes to print."""
-    from synth.templates.hinges import Hinges
-    from synth.templates.of_mechanism import template_of_panels
+    from synth.making.templates.hinges import Hinges
+    from synth.making.templates.of_mechanism import template_of_panels
 
     hinges = None
     if hinge_kind != "fold" and hinge_width is not None:
@@ -357,9 +357,9 @@ def _of_panels(
 
 def _of_surface(
     source: NamedMechanism, kind: RealisedKind | None, cone_angle: float | None, **look: Any
-) -> synth.templates.Template:
+) -> synth.making.templates.Template:
     """Return the template of a linkage on a cone or a cylinder."""
-    from synth.templates.of_mechanism import template_of_linkage
+    from synth.making.templates.of_mechanism import template_of_linkage
 
     if source.mode is not None or kind is not None:
         raise click.UsageError("--mode and --as are for types without coordinates, not a linkage on a surface")

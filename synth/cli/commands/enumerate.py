@@ -315,7 +315,7 @@ def _say_why_none(mechanism: Mechanisms, max_degree: int) -> None:
 
 
 def _graph(file: str) -> synth.SCGraph:
-    from graphs.convert.table import graph_of
+    from graphs.convert.conversions import graph_of
 
     mechanism = graphs.files.read(file)
     with about(file):

@@ -11,15 +11,15 @@ from typing import TYPE_CHECKING, Any
 import click
 import numpy as np
 
-import synth.drawing
-import synth.guidance
+import synth.linkages.guidance
+import synth.making.drawing
 from graphs.errors import UnsolvableError, numbered
 from synth.cli import options
 from synth.cli.output import about, check_output, check_picture, console, plain, print_json, print_result, table
 
 if TYPE_CHECKING:
-    from synth.guidance.order import Direction
-    from synth.guidance.sixbars import Carrier
+    from synth.linkages.guidance.order import Direction
+    from synth.linkages.guidance.sixbars import Carrier
 
 _ORIENTATIONS = options.value(
     "--orientations file", "FILE", "File of three or more orientations (docs/native-json.md).", required=True,
@@ -78,8 +78,8 @@ def order(
     else:
         analysis, where = _spherical_order(file, _numbers_of(desired), **about_what)
         if picture is not None:
-            orientations = synth.guidance.read_orientations(file)
-            synth.drawing.draw_hoop(orientations, analysis.axis, analysis.hoop).save(picture, force=force)
+            orientations = synth.linkages.guidance.read_orientations(file)
+            synth.making.drawing.draw_hoop(orientations, analysis.axis, analysis.hoop).save(picture, force=force)
     print_result(analysis, where, as_json=as_json, written=[picture])
     if not analysis.in_order:
         sys.exit(1)
@@ -96,19 +96,19 @@ def _numbers_of(desired: tuple[float, ...] | None) -> list[int] | None:
 def _spherical_order(
     file: str, desired: list[int] | None, *, axis: tuple[float, float, float] | None,
     pivot: tuple[float, ...] | None, direction: Direction,
-) -> tuple[synth.guidance.OrderAnalysis, dict[str, Any]]:  # fmt: skip
+) -> tuple[synth.linkages.guidance.OrderAnalysis, dict[str, Any]]:  # fmt: skip
     if axis is None or pivot is not None:
         raise click.UsageError("--orientations requires --axis" if axis is None else "--pivot requires --position")
-    orientations = synth.guidance.read_orientations(file)
+    orientations = synth.linkages.guidance.read_orientations(file)
     with about(file):
-        analysis = synth.guidance.analyse_order(orientations, axis, direction, desired)
+        analysis = synth.linkages.guidance.analyse_order(orientations, axis, direction, desired)
     return analysis, {"file": file, "axis": list(axis)}
 
 
 def _planar_order(
     positions: Sequence[tuple[float, ...]], picture: str | None, desired: list[int] | None, *,
     axis: tuple[float, float, float] | None, pivot: tuple[float, ...] | None, direction: Direction,
-) -> tuple[synth.guidance.OrderAnalysis, dict[str, Any]]:  # fmt: skip
+) -> tuple[synth.linkages.guidance.OrderAnalysis, dict[str, Any]]:  # fmt: skip
     if pivot is None or axis is not None:
         raise click.UsageError("--position requires --pivot" if pivot is None else "--axis requires --orientations")
     if picture is not None:
@@ -118,8 +118,8 @@ def _planar_order(
             raise click.UsageError(f"--position: {len(position)} numbers; expected X,Y,DEGREES, such as 0,2,20")
     if len(pivot) != 2:
         raise click.UsageError(f"--pivot: {len(pivot)} numbers; expected X,Y, such as 0,0")
-    rows = synth.guidance.PlanarPositions(np.array([(x, y, radians(turn)) for x, y, turn in positions]))
-    analysis = synth.guidance.analyse_planar_order(rows, pivot, direction, desired)
+    rows = synth.linkages.guidance.PlanarPositions(np.array([(x, y, radians(turn)) for x, y, turn in positions]))
+    analysis = synth.linkages.guidance.analyse_planar_order(rows, pivot, direction, desired)
     return analysis, {"positions": [list(position) for position in positions], "pivot": list(pivot)}
 
 
@@ -159,7 +159,7 @@ def dyads(
       synth dyads --orientations data/orientations/tipparthi.json
     """
     check_picture(picture, force=force)
-    orientations = synth.guidance.read_orientations(file)
+    orientations = synth.linkages.guidance.read_orientations(file)
     with about(file):
         guiding = _guiding_dyads(orientations, axes, samples)
         if picture is not None:
@@ -168,21 +168,23 @@ def dyads(
 
 
 def _guiding_dyads(
-    orientations: synth.guidance.Orientations, axes: tuple[tuple[float, float, float], ...], samples: int
-) -> synth.guidance.GuidingDyads:
+    orientations: synth.linkages.guidance.Orientations, axes: tuple[tuple[float, float, float], ...], samples: int
+) -> synth.linkages.guidance.GuidingDyads:
     """Return the dyads of orientations; refuse an --axis for other than three, or its absence for three."""
     if axes and len(orientations) != 3:
         raise click.UsageError(f"--axis requires three orientations, got {len(orientations)}")
     if not axes and len(orientations) == 3:
         raise click.UsageError("three orientations require --axis X,Y,Z: every fixed axis has a dyad")
-    return synth.guidance.guiding_dyads(orientations, axes, samples)
+    return synth.linkages.guidance.guiding_dyads(orientations, axes, samples)
 
 
-def _drawn(orientations: synth.guidance.Orientations, guiding: tuple[synth.guidance.Dyad, ...]) -> Any:
+def _drawn(
+    orientations: synth.linkages.guidance.Orientations, guiding: tuple[synth.linkages.guidance.Dyad, ...]
+) -> Any:
     """Return the map of orders, with the dyads, or with the curve of fixed axes for four orientations."""
     if len(orientations) == 4:
-        return synth.drawing.draw_map(orientations, (), synth.guidance.centre_axes(orientations, 720))
-    return synth.drawing.draw_map(orientations, guiding)
+        return synth.making.drawing.draw_map(orientations, (), synth.linkages.guidance.centre_axes(orientations, 720))
+    return synth.making.drawing.draw_map(orientations, guiding)
 
 
 @click.command()
@@ -214,17 +216,17 @@ def fourbar(
       synth fourbar --orientations data/orientations/crank-rocker.json --usable --cones --motion motion.json
     """
     check_output(motion, force=force)
-    orientations = synth.guidance.read_orientations(file)
+    orientations = synth.linkages.guidance.read_orientations(file)
     with about(file):
-        ranked = synth.guidance.four_bars(orientations, _guiding_dyads(orientations, axes, samples).dyads)
+        ranked = synth.linkages.guidance.four_bars(orientations, _guiding_dyads(orientations, axes, samples).dyads)
     good = [four_bar for four_bar in ranked if not four_bar.defects]
     frames = None
     if motion is not None:
         with about(file):
             if not good:
                 raise UnsolvableError("--motion requires a four-bar without defects, and there is none")
-            quaternions = synth.guidance.motion_of(orientations, good[0], steps).quaternions
-            synth.guidance.write_orientations(quaternions, motion, force=force)
+            quaternions = synth.linkages.guidance.motion_of(orientations, good[0], steps).quaternions
+            synth.linkages.guidance.write_orientations(quaternions, motion, force=force)
             frames = len(quaternions)
     listed = (good if usable else ranked)[:best]
     if as_json:
@@ -274,9 +276,9 @@ def sixbar(
     """
     check_output(output, force=force)
     check_output(motion, force=force)
-    orientations = synth.guidance.read_orientations(file)
+    orientations = synth.linkages.guidance.read_orientations(file)
     with about(file):
-        found = synth.guidance.six_bars(orientations, most=best, tries=tries, driven=driven)
+        found = synth.linkages.guidance.six_bars(orientations, most=best, tries=tries, driven=driven)
     if not found.six_bars:
         print_result(found, {"file": file}, as_json=as_json)
         sys.exit(1)
@@ -285,13 +287,13 @@ def sixbar(
 
         write(found.six_bars[0].linkage, output, force=force)
     if motion is not None:
-        synth.guidance.write_orientations(found.six_bars[0].motion.quaternions, motion, force=force)
+        synth.linkages.guidance.write_orientations(found.six_bars[0].motion.quaternions, motion, force=force)
     print_result(found, {"file": file}, as_json=as_json, written=[output, motion])
 
 
-def _cones_json(four_bar: synth.guidance.GuidedFourBar) -> dict[str, Any]:
+def _cones_json(four_bar: synth.linkages.guidance.GuidedFourBar) -> dict[str, Any]:
     """Return every cone, and interval of cones, on which a four-bar can lie."""
-    forms = synth.guidance.conical_forms(four_bar)
+    forms = synth.linkages.guidance.conical_forms(four_bar)
     return {
         "cones": [cone for form in forms for cone in form.cones_json()],
         "families": [family for form in forms for family in form.families_json()],
@@ -302,7 +304,7 @@ def _with_half_angle(angle: float) -> str:
     return f"{angle:.4f} ({90.0 - angle:.4f})"
 
 
-def _table_of_cones(listed: Sequence[synth.guidance.GuidedFourBar]) -> Any:
+def _table_of_cones(listed: Sequence[synth.linkages.guidance.GuidedFourBar]) -> Any:
     rows = table("row", "ground driver coupler follower", "lambda (half angle)", "circuit", numbers=["row"])
     for number, four_bar in enumerate(listed, start=1):
         forms = _cones_json(four_bar)
@@ -316,8 +318,8 @@ def _table_of_cones(listed: Sequence[synth.guidance.GuidedFourBar]) -> Any:
     return rows
 
 
-def _table(listed: Sequence[synth.guidance.GuidedFourBar]) -> Any:
-    from synth.guidance.order import direction_words
+def _table(listed: Sequence[synth.linkages.guidance.GuidedFourBar]) -> Any:
+    from synth.linkages.guidance.order import direction_words
 
     rows = table(
         "driver G", "follower G", "ground driver coupler follower", "type", "driver turns", "defects",

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-import synth.drawing.mechanisms
-import synth.folding
-import synth.layering
+import synth.analysis.folding
+import synth.analysis.layering
+import synth.making.drawing.mechanisms
 from graphs.errors import InvariantError
 from synth.cli import options
 from synth.cli.output import about, check_output, plain, print_answer, print_json, print_result, tell_written
@@ -22,8 +22,8 @@ if TYPE_CHECKING:
 
     from enumerate.runner.job import Row
     from graphs.mechanism import Sheet
-    from synth.layering import FlatFolding, LayerOrder
-    from synth.layering.counting.problem import LayerProblem
+    from synth.analysis.layering import FlatFolding, LayerOrder
+    from synth.analysis.layering.counting.problem import LayerProblem
 
 
 _MOST_WRITTEN = 1000
@@ -122,7 +122,7 @@ def layers(
     ):  # fmt: skip
         raise click.UsageError("--may-stay-flat goes with --frame, --order, -o, --json and --precision only")
     from graphs.answer.mechanisms import sheet_in_frame
-    from graphs.files.accepted import mechanism_for
+    from graphs.files.mechanism_like import mechanism_for
     from graphs.mechanism import Sheet
 
     running = RunOptions(counts, workers, scheduler, resume, quiet=as_json, force=force and not resume, counting=True)
@@ -132,21 +132,21 @@ def layers(
         if may_stay_flat is not None:
             _print_staying(sheet, may_stay_flat, which["order"], output, file, force=force, as_json=as_json)
             return
-        if synth.layering.is_folded(sheet):
+        if synth.analysis.layering.is_folded(sheet):
             if fix or assignments or counts or workers or scheduler or component is not None:
                 raise click.UsageError(
                     "--fix, --assignments, --counts and --component take a pattern, not a folded frame"
                 )
             _print_folded(sheet, output, file, frame, force=force, as_json=as_json, **which)
             return
-        answer = synth.layering.flat_folding(
+        answer = synth.analysis.layering.flat_folding(
             sheet, lambda problems: _count(problems, running), explain=explain and not fix
         )
         if fix:
             _print_fixed(answer, file, output, force=force, as_json=as_json)
             return
         shown, unmet = _shown(answer, file, **which) if answer.foldable else (None, ())
-        by = synth.layering.orders_by_assignment(answer) if assignments else None
+        by = synth.analysis.layering.orders_by_assignment(answer) if assignments else None
         written = _write(answer, shown, component, output, force=force) if output else []
     if as_json:
         order = None if shown is None else shown.to_json()
@@ -178,7 +178,7 @@ def _check_options(
     if fix:
         check_output(output, force=force)
     elif output is not None and component is None:
-        synth.drawing.mechanisms.check_order_path(output, force=force)
+        synth.making.drawing.mechanisms.check_order_path(output, force=force)
     if resume and counts is None:
         raise click.UsageError("--resume requires --counts STORE, the store to continue")
 
@@ -187,10 +187,12 @@ def _print_staying(
     sheet: Sheet, may: str | list[int], number: int | None, output: str | None, file: str, *, force: bool, as_json: bool
 ) -> None:
     """Print the orders of all choices of creases that stay flat, and one of them, and write it."""
-    answer = synth.layering.staying_flat(sheet, may, lambda problems: list(map(synth.layering.counted, problems)))
+    answer = synth.analysis.layering.staying_flat(
+        sheet, may, lambda problems: list(map(synth.analysis.layering.counted, problems))
+    )
     shown = answer.order(number or 0) if answer.foldable and (number is not None or output) else None
     if shown is not None and output:
-        synth.drawing.mechanisms.write_order(*shown, output, force=force)
+        synth.making.drawing.mechanisms.write_order(*shown, output, force=force)
     order = shown[1] if shown is not None and number is not None else None
     if as_json:
         print_json({"file": file, **answer.to_json(), "order": None if order is None else order.to_json()})
@@ -212,12 +214,12 @@ def _print_folded(
 
     if output is not None and Path(output).suffix.lower() != ".fold":
         raise click.UsageError("-o writes the layer order of a folded frame as .fold")
-    answer = synth.folding.layers_at(sheet)
+    answer = synth.analysis.folding.layers_at(sheet)
     shown, unmet = (
         _shown(answer, file, frame=frame, **which) if answer.image is not None and answer.foldable else (None, ())
     )
     if output is not None and answer.image is not None and answer.foldable:
-        text = synth.layering.posed_fold_text(answer, shown or answer.order())
+        text = synth.analysis.layering.posed_fold_text(answer, shown or answer.order())
         write_text(Path(output), text, force=force)
     else:
         output = None
@@ -240,7 +242,7 @@ def _print_fixed(answer: FlatFolding, file: str, output: str | None, *, force: b
     """Print which creases have to change for the local conditions to hold, and write the changed pattern."""
     from graphs.files.formats import write
 
-    fixed = synth.layering.locally_fixed(answer)
+    fixed = synth.analysis.layering.locally_fixed(answer)
     if output is not None:
         write(fixed.sheet, output, force=force)
     print_result(fixed, {"file": file, "output": output}, as_json=as_json, written=[output])
@@ -249,18 +251,18 @@ def _print_fixed(answer: FlatFolding, file: str, output: str | None, *, force: b
 def _count(problems: Sequence[LayerProblem], running: RunOptions) -> list[int]:
     """Count problems, in the store of --counts if there is one."""
     if running.output is None and running.workers is None and running.scheduler is None:
-        return list(map(synth.layering.counted, problems))
+        return list(map(synth.analysis.layering.counted, problems))
     from enumerate.runner.sinks import RowSink
     from enumerate.runner.store import SqliteSink, read_rows
 
-    job = synth.layering.LayerCountJob(tuple(problems))
+    job = synth.analysis.layering.LayerCountJob(tuple(problems))
     if running.output is None:
         rows: list[Row] = []
         run_resumable(job, lambda **_: RowSink(lambda _columns, more: rows.extend(more)), running)
-        return synth.layering.numbers_of(job, rows)
+        return synth.analysis.layering.numbers_of(job, rows)
     path, resume, force = running.output, running.resume, running.force
     run_resumable(job, lambda **how: SqliteSink(path, resume=resume, force=force, **how), running)
-    return synth.layering.numbers_of(job, read_rows(path))
+    return synth.analysis.layering.numbers_of(job, read_rows(path))
 
 
 def _shown(
@@ -278,7 +280,7 @@ def _shown(
     if sample is not None:
         return answer.sample(sample), ()
     if face_orders:
-        wishes = synth.layering.wishes_of(answer, synth.layering.read_face_orders(file, frame))
+        wishes = synth.analysis.layering.wishes_of(answer, synth.analysis.layering.read_face_orders(file, frame))
     return answer.nearest(wishes) if wishes else (None, ())
 
 
@@ -289,10 +291,10 @@ def _write(
     if not answer.foldable:
         if Path(output).suffix.lower() == ".fold":
             return []
-        synth.drawing.mechanisms.fault_scene(answer).save(output, force=force)
+        synth.making.drawing.mechanisms.fault_scene(answer).save(output, force=force)
         return [Path(output)]
     if component is None:
-        synth.drawing.mechanisms.write_order(answer, shown or answer.order(), output, force=force)
+        synth.making.drawing.mechanisms.write_order(answer, shown or answer.order(), output, force=force)
         return [Path(output)]
     if component >= len(answer.components):
         numbers = f"a number from 0 to {len(answer.components) - 1}" if answer.components else "no --component"
@@ -303,7 +305,7 @@ def _write(
     place = Path(output)
     files = [place.with_stem(f"{place.stem}-{number}") for number in range(orders)]
     for path in files:
-        synth.drawing.mechanisms.check_order_path(path, force=force)
+        synth.making.drawing.mechanisms.check_order_path(path, force=force)
     for path, order in zip(files, answer.orders_of(component), strict=True):
-        synth.drawing.mechanisms.write_order(answer, order, path, force=force)
+        synth.making.drawing.mechanisms.write_order(answer, order, path, force=force)
     return files

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-import synth.verdict
+import synth.analysis.verdict
 from graphs.errors import FileError, numbered
 from graphs.garbage import set_aside
 from synth.cli import options
@@ -66,9 +66,9 @@ def mobility(
     counting["geometry"] = not no_geometry
     if not no_pose:
         counting |= {"pose": pose, "motion": look_for_motion, "more": more}
-    judge = synth.verdict.mobility_of_type if no_pose else synth.mobility
+    judge = synth.analysis.verdict.mobility_of_type if no_pose else synth.mobility
     failures: list[str] = []
-    answers: list[tuple[str, synth.verdict.JudgedMobility]] = []
+    answers: list[tuple[str, synth.analysis.verdict.JudgedMobility]] = []
     with set_aside(until=click.get_current_context().call_on_close):
         for entry in entries(files, failures):
             try:
@@ -96,7 +96,7 @@ def _in_number_order(label: str) -> list[str | int]:
     return [int(part) if part.isdecimal() else part for part in re.split(r"([0-9]+)", label)]
 
 
-def _print_table(out: Console, answers: list[tuple[str, synth.verdict.JudgedMobility]], failed: int) -> None:
+def _print_table(out: Console, answers: list[tuple[str, synth.analysis.verdict.JudgedMobility]], failed: int) -> None:
     """Print one line per mechanism, with totals; of one file alone all notes are printed."""
     numbers = ("DOF", "N", "J", "L", "centres", "M", "exact", "pose", "notes")
     rows = table("file", "class", *numbers, numbers=numbers)

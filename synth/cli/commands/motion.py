@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-import synth.compliance
-import synth.moving
+import synth.analysis.compliance
+import synth.analysis.moving
 from graphs.errors import UnsolvableError
 from graphs.garbage import set_aside
 from synth.cli import options
@@ -96,7 +96,7 @@ def fold(
       synth fold data/patterns/bird-base.fold --all -o folded.gif
       synth fold data/linkages/sarrus.json --frames 11 -o rising.svg
     """
-    from synth.drawing.space.poses import check_motion_file, write_motion
+    from synth.making.drawing.space.poses import check_motion_file, write_motion
 
     if sum(map(bool, (whole, drive, along))) > 1:
         raise click.UsageError("--drive, --along and --all exclude each other; try one of them")
@@ -105,7 +105,7 @@ def fold(
     with set_aside(until=click.get_current_context().call_on_close):
         mechanism = read(file, warn=False)
         with about(file):
-            at = synth.moving.configuration_of(precise(mechanism))
+            at = synth.analysis.moving.configuration_of(precise(mechanism))
             graph = at.linkage.graph
     with about(file):
         with progress_line() as show:
@@ -137,7 +137,7 @@ def fold(
 
 def _graph(mechanism: Any) -> synth.SCGraph:
     """Return the graph of a mechanism at its configuration, whose links and joints are named."""
-    return synth.moving.configuration_of(mechanism).linkage.graph
+    return synth.analysis.moving.configuration_of(mechanism).linkage.graph
 
 
 def _point(graph: synth.SCGraph, text: str) -> tuple[LinkId, list[float]]:
@@ -171,7 +171,7 @@ def positions(mechanism: Any, drive: tuple[str, ...], **how: Any) -> Any:
 
     Exit status 1: the linkage has no assembly mode at these inputs, or not all were found.
     """
-    at = synth.moving.configuration_of(mechanism, slides=True)
+    at = synth.analysis.moving.configuration_of(mechanism, slides=True)
     slides = {joint for place, joint in enumerate(at.joints) if place in at.linkage.slides}
     values = options.numbers_of_joints(at.linkage.graph, drive, "--drive", "JOINT=DEGREES")
     inputs = {joint: value if joint in slides else radians(value) for joint, value in values.items()}
@@ -239,7 +239,7 @@ def advise(
     Exit status 1: no set of diagonals was found.
     """
     from graphs.convert import mechanism_of_sheet
-    from synth.moving.made import sheet_of
+    from synth.analysis.moving._configuration_of import sheet_of
 
     sheet = sheet_of(mechanism)
     graph = _graph(mechanism) if sheet is None else mechanism_of_sheet(sheet).sc
@@ -288,7 +288,7 @@ def states(
       synth states four-bar.json --stiffness 1=2 --drive 0=40 --frames 8
     """
     graph = _graph(mechanism)
-    springs = synth.compliance.Springs(
+    springs = synth.analysis.compliance.Springs(
         options.numbers_of_joints(graph, stiffness, "--stiffness", "JOINT=K"),
         options.driven_angles(graph, rest, "--rest"),
         options.numbers_of_joints(graph, moment, "--moment", "JOINT=M"),
@@ -296,7 +296,7 @@ def states(
     load_path = None
     if drive is not None:
         [(joint, angle)] = options.driven_angles(graph, (drive,)).items()
-        load_path = synth.compliance.DrivenJoint(joint, angle, frames)
+        load_path = synth.analysis.compliance.DrivenJoint(joint, angle, frames)
     return synth.states(
         mechanism,
         joints=[options.joint_of(graph, name) for name in joints],
@@ -309,9 +309,9 @@ def states(
 
 def _masses(
     mechanism: Mechanism, graph: synth.SCGraph, words: tuple[str, ...], density: float | None, ground: str | None
-) -> synth.compliance.Masses | None:
+) -> synth.analysis.compliance.Masses | None:
     """Return the masses of the options --mass, --density and --ground."""
-    from synth.moving.made import sheet_of
+    from synth.analysis.moving._configuration_of import sheet_of
 
     if not words and density is None:
         if ground is not None:
@@ -322,11 +322,11 @@ def _masses(
         sheet = sheet_of(mechanism)
         if sheet is None:
             raise UnsolvableError("--density requires panels, and the mechanism has none; try --mass")
-        points += synth.compliance.sheet_masses(sheet, density)
-    return synth.compliance.Masses(tuple(points), options.link_of(graph, ground))
+        points += synth.analysis.compliance.sheet_masses(sheet, density)
+    return synth.analysis.compliance.Masses(tuple(points), options.link_of(graph, ground))
 
 
-def _mass(graph: synth.SCGraph, word: str) -> synth.compliance.Mass:
+def _mass(graph: synth.SCGraph, word: str) -> synth.analysis.compliance.Mass:
     """Return the point mass of a word ``LINK=M@X,Y,Z``."""
     link, _, rest = word.rpartition("=")
     value, _, place = rest.partition("@")
@@ -336,7 +336,7 @@ def _mass(graph: synth.SCGraph, word: str) -> synth.compliance.Mass:
         link = ""
     if not link:
         raise click.BadParameter(f"{plain(word)!r} is not LINK=M@X,Y,Z", param_hint="--mass")
-    return synth.compliance.Mass(options.link_of(graph, link.strip()), weight, (x, y, z))
+    return synth.analysis.compliance.Mass(options.link_of(graph, link.strip()), weight, (x, y, z))
 
 
 @click.command()
@@ -356,4 +356,4 @@ def limits(mechanism: Any, keep: tuple[str, ...]) -> Any:
       synth limits cylinder.fold
     """
     graph = _graph(mechanism)
-    return synth.compliance.limits(mechanism, keep=[options.link_of(graph, name) for name in keep])
+    return synth.analysis.compliance.limits(mechanism, keep=[options.link_of(graph, name) for name in keep])

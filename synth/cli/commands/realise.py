@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-import synth.patterns
+import synth.catalogue.patterns
 from graphs.errors import FileError, numbered
 from graphs.printing import plain
 from synth.cli import options, output as out
@@ -23,17 +23,17 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from enumerate.runner import Sink
-    from synth.realisation import ConeRealisation
+    from synth.catalogue.realisation import ConeRealisation
 
 
 class _Generators(NamedGroup):
     """A command for each generator; the generators are imported when one is looked up."""
 
     def list_commands(self, ctx: click.Context) -> list[str]:
-        return list(synth.patterns.GENERATORS)
+        return list(synth.catalogue.patterns.GENERATORS)
 
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
-        generator = synth.patterns.GENERATORS.get(cmd_name)
+        generator = synth.catalogue.patterns.GENERATORS.get(cmd_name)
         return None if generator is None else _command(generator)
 
     def resolve_command(
@@ -68,7 +68,7 @@ def generate(ctx: click.Context, listed: bool, as_json: bool) -> None:
     if not listed and not as_json:
         click.echo(ctx.get_help())
         return
-    generators = synth.patterns.GENERATORS.values()
+    generators = synth.catalogue.patterns.GENERATORS.values()
     if as_json:
         out.print_json([_described(generator) for generator in generators])
         return
@@ -80,7 +80,7 @@ def generate(ctx: click.Context, listed: bool, as_json: bool) -> None:
     out.console().print(rows)
 
 
-def _described(generator: synth.patterns.Generator) -> dict[str, Any]:
+def _described(generator: synth.catalogue.patterns.Generator) -> dict[str, Any]:
     return {
         "name": generator.name,
         "title": generator.title,
@@ -104,7 +104,7 @@ def _described(generator: synth.patterns.Generator) -> dict[str, Any]:
     }
 
 
-def _command(generator: synth.patterns.Generator) -> click.Command:
+def _command(generator: synth.catalogue.patterns.Generator) -> click.Command:
     """Return the command of one generator, an option for each of its parameters."""
 
     def run(
@@ -223,7 +223,7 @@ def realise(
       synth realise data/wiener/six-bar-loop-spatial.json --freedoms 1 --as space
       synth realise data/linkages/bennett.json --freedoms 1 -o bennett.json --mark type.json
     """
-    from synth.drawing.catalogue import is_catalogue
+    from synth.making.drawing.list_pages import is_catalogue
 
     if freedoms is not None:
         others = kind == "cone" or size is not None or flat_foldable or symmetric or mode or workers or resume
@@ -263,7 +263,7 @@ def realise(
             realisation: Any = _on_cone(file, source, cone_angle, seed, tries)
             mechanism = realisation.linkage
         else:
-            from synth.patterns.panels import rounded
+            from synth.catalogue.patterns.panels import rounded
 
             realisation = synth.realise(source, mode=mode, **settings)
             mechanism = rounded(realisation.sheet, _FIGURES - ceil(log10(settings["size"])))
@@ -283,8 +283,8 @@ def _refuse(*rules: tuple[object, str]) -> None:
 
 def _on_cone(file: str, source: Any, cone_angle: float | None, seed: int, tries: int) -> ConeRealisation:
     from enumerate.strings import ChainString
-    from synth.conformed.orders import OrderOnCircle
-    from synth.realisation.on_cone import realise_candidate
+    from synth.catalogue.realisation.on_cone import realise_candidate
+    from synth.linkages.conformed.orders import OrderOnCircle
 
     angle = {} if cone_angle is None else {"cone_angle": radians(cone_angle)}
     if isinstance(source, OrderOnCircle):
@@ -298,11 +298,11 @@ def _realise_many(source: str, running: RunOptions, settings: dict[str, Any], *,
     """Realise the types of a store, a list or a folder, and print the results.
 
     The output of `running` is a folder, or a store (.sqlite), which holds the files in its rows; the settings are
-    the parameters of `synth.realisation.realise`.
+    the parameters of `synth.catalogue.realisation.realise`.
     """
     from enumerate.runner import read_rows
     from enumerate.runner.job import row_as_dict
-    from synth.realisation.many import COLUMNS, RealisationJob, summary_of
+    from synth.synthesis.atlas.realisation_job import COLUMNS, RealisationJob, summary_of
 
     job = RealisationJob(source, tuple(sorted(settings.items())))
     sink, store = _sink_of(running)
@@ -324,7 +324,7 @@ def _realise_many(source: str, running: RunOptions, settings: dict[str, Any], *,
 def _sink_of(running: RunOptions) -> tuple[Callable[..., Sink], Path]:
     """Return a function that makes the sink, and the path of the store."""
     from enumerate.runner import SqliteSink
-    from synth.realisation.many import RealisationFolder, store_beside
+    from synth.synthesis.atlas.realisation_job import RealisationFolder, store_beside
 
     if running.output is None:
         raise click.UsageError("many types require -o FOLDER or -o FILE.sqlite")
@@ -345,7 +345,7 @@ def _search_special_geometry(
 
     The search has the options of `synth.realise`.
     """
-    from synth.drawing.catalogue import is_catalogue
+    from synth.making.drawing.list_pages import is_catalogue
 
     if is_catalogue(file):
         raise click.UsageError("--freedoms requires one type, not a store, a list or a folder")

@@ -12,10 +12,10 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import click
 
-import synth.conformed
-import synth.drawing
-import synth.moving
-import synth.surfaces
+import synth.analysis.moving
+import synth.linkages.conformed
+import synth.linkages.surfaces
+import synth.making.drawing
 from graphs.errors import UnsolvableError, numbered
 from graphs.printing import plain
 from synth.cli import options, output as out
@@ -78,12 +78,12 @@ class LinkageOptions:
             return replace(linkage, surface=self.surface) if of_steps else linkage
         if self.sizes is not None:
             mapped = self.loop_map
-            sizes = mapped.angles if isinstance(mapped, synth.surfaces.ConeMap) else mapped.lengths
+            sizes = mapped.angles if isinstance(mapped, synth.linkages.surfaces.ConeMap) else mapped.lengths
             return synth.SurfaceLinkage.loop(sizes, self.kind)
         return self._of_steps().linkage()
 
     @cached_property
-    def loop_map(self) -> synth.surfaces.ConeMap | synth.surfaces.CylinderMap:
+    def loop_map(self) -> synth.linkages.surfaces.ConeMap | synth.linkages.surfaces.CylinderMap:
         """Every surface of a loop by its link sizes; with --lambda or --radius, that one."""
         surface = self.surface
         if self.kind == "cone":
@@ -94,8 +94,8 @@ class LinkageOptions:
         """Return the linkage of a file, or of a row of conical candidates, which lies on any cone or cylinder."""
         from graphs.files.formats import read_linkage
         from synth.cli.reading import read_named
-        from synth.conformed.orders import OrderOnCircle
-        from synth.drawing.catalogue import is_catalogue
+        from synth.linkages.conformed.orders import OrderOnCircle
+        from synth.making.drawing.list_pages import is_catalogue
 
         if self.row is None and not is_catalogue(file):
             return read_linkage(file)
@@ -110,22 +110,24 @@ class LinkageOptions:
             for note in synth.map_to_cones(self.linkage_sizes).notes:
                 click.echo(f"note: {note}", err=True)
 
-    def _of_steps(self) -> synth.conformed.OnSurface:
+    def _of_steps(self) -> synth.linkages.conformed.OnSurface:
         from graphs.mechanism.surfaces import as_planar
 
-        loop = synth.conformed.loop_of_steps(options.in_radians(self.steps or ()), self.surface)
+        loop = synth.linkages.conformed.loop_of_steps(options.in_radians(self.steps or ()), self.surface)
         return loop if self.kind == "cone" else replace(loop, chain=as_planar(loop.chain))
 
-    def on_surfaces(self, *, families: bool = False) -> list[synth.conformed.OnSurface]:
+    def on_surfaces(self, *, families: bool = False) -> list[synth.linkages.conformed.OnSurface]:
         """Return the linkage on each of its surfaces; after these one of each family, if they are listed too."""
         if self.file is not None:
             linkage = self._of_file(self.file)
-            placed = synth.conformed.linkage_on_surfaces(linkage, self.surface, families=families)
+            placed = synth.linkages.conformed.linkage_on_surfaces(linkage, self.surface, families=families)
         elif self.sizes is not None and self.kind == "cone":
             angle = None if self.surface_size is None else radians(self.surface_size)
-            placed = synth.conformed.loop_on_cones(self.linkage_sizes, angle, families=families)
+            placed = synth.linkages.conformed.loop_on_cones(self.linkage_sizes, angle, families=families)
         elif self.sizes is not None:
-            placed = synth.conformed.loop_on_cylinders(self.linkage_sizes, self.surface_size, families=families)
+            placed = synth.linkages.conformed.loop_on_cylinders(
+                self.linkage_sizes, self.surface_size, families=families
+            )
         else:
             placed = [self._of_steps()]
         return [linkage.curved(dict(self.arcs)) for linkage in placed] if self.arcs else placed
@@ -212,7 +214,7 @@ class MapOutput:
                 _write(linkage, self.path, force=self.force)
                 return ""
             if chosen.sizes is not None:
-                synth.drawing.draw_loop_sums(chosen.loop_map).save(self.path, force=self.force)
+                synth.making.drawing.draw_loop_sums(chosen.loop_map).save(self.path, force=self.force)
                 return ""
         every = mapping.placed()
         one = mapping.of_number(every, self.number)
@@ -238,7 +240,7 @@ class Mapping:
     def linkage(self) -> synth.SurfaceLinkage:
         """The linkage that is mapped: for --by-angles and --by-lengths without its steps."""
         linkage = self.chosen.linkage()
-        return synth.surfaces.by_sizes(linkage) if self.by_sizes else linkage
+        return synth.linkages.surfaces.by_sizes(linkage) if self.by_sizes else linkage
 
     @property
     def chooses(self) -> bool:
@@ -246,25 +248,29 @@ class Mapping:
         of_sizes = self.chosen.steps is None and not self.by_sizes and self.linkage.steps is None
         return of_sizes and self.chosen.surface is not None
 
-    def answer(self) -> synth.surfaces.ConeMap | synth.surfaces.CylinderMap | synth.surfaces.LinkageMap:
+    def answer(
+        self,
+    ) -> synth.linkages.surfaces.ConeMap | synth.linkages.surfaces.CylinderMap | synth.linkages.surfaces.LinkageMap:
         """Return every surface, or the chosen one."""
         if self.chosen.sizes is not None:
             return self.chosen.loop_map
         surface = self.chosen.surface if self.chooses else None
         return synth.map_linkage(self.linkage, radians(self.tolerance), surface)
 
-    def placed(self) -> list[synth.conformed.OnSurface]:
+    def placed(self) -> list[synth.linkages.conformed.OnSurface]:
         """Return the linkage on the surface of each numbered row."""
         if self.chosen.sizes is not None:
             return self.chosen.on_surfaces(families=True)
         surface = self.chosen.surface if self.chooses else None
-        return synth.conformed.linkage_on_surfaces(
+        return synth.linkages.conformed.linkage_on_surfaces(
             self.linkage, surface, tolerance=radians(self.tolerance), families=True
         )
 
-    def of_number(self, every: Sequence[synth.conformed.OnSurface], number: int | None) -> synth.conformed.OnSurface:
+    def of_number(
+        self, every: Sequence[synth.linkages.conformed.OnSurface], number: int | None
+    ) -> synth.linkages.conformed.OnSurface:
         """Return the linkage on the surface of a number, of a chosen one by default the first."""
-        from synth.conformed.linkages import surface_of_number
+        from synth.linkages.conformed.linkage_behaviour import surface_of_number
 
         kind = self.chosen.kind
         if self.chooses and not every:
@@ -279,9 +285,9 @@ def _is_linkage(output: str | None) -> bool:
     return output is not None and output.lower().endswith(".json")
 
 
-def _write(linkage: synth.SurfaceLinkage | synth.conformed.OnSurface, output: str, *, force: bool) -> None:
+def _write(linkage: synth.SurfaceLinkage | synth.linkages.conformed.OnSurface, output: str, *, force: bool) -> None:
     """Write a linkage, with or without its surface, or draw it there."""
-    if not isinstance(linkage, synth.conformed.OnSurface):
+    if not isinstance(linkage, synth.linkages.conformed.OnSurface):
         synth.write(linkage, output, force=force)
     elif _is_linkage(output):
         synth.write(linkage.linkage(), output, force=force)
@@ -289,9 +295,9 @@ def _write(linkage: synth.SurfaceLinkage | synth.conformed.OnSurface, output: st
         _draw(linkage, output, force=force)
 
 
-def _draw(linkage: synth.conformed.OnSurface, output: str, ground: Any = None, *, force: bool) -> None:
-    chain = synth.conformed.ConformedChain.of(linkage.chain, ground)
-    scene = synth.drawing.draw_conformed(chain, linkage.places, linkage.surface, begins=linkage.begins(chain))
+def _draw(linkage: synth.linkages.conformed.OnSurface, output: str, ground: Any = None, *, force: bool) -> None:
+    chain = synth.linkages.conformed.ConformedChain.of(linkage.chain, ground)
+    scene = synth.making.drawing.draw_conformed(chain, linkage.places, linkage.surface, begins=linkage.begins(chain))
     scene.save(output, force=force)
 
 
@@ -372,7 +378,7 @@ def map_command(kind: Kind) -> click.Command:
         if supplementary:
             if chosen.sizes is None or target.path is not None:
                 raise click.UsageError("--supplementary lists linkages for --angles, and writes none")
-            answer: Any = synth.surfaces.supplementary_linkages(chosen.linkage_sizes)
+            answer: Any = synth.linkages.surfaces.supplementary_linkages(chosen.linkage_sizes)
         else:
             target.check(kind)
             with chosen.about():
@@ -475,7 +481,7 @@ def move_command(kind: Kind) -> click.Command:
         with chosen.about():
             chosen.note_readings()
             motions = [
-                synth.moving.move_on_surface(
+                synth.analysis.moving.move_on_surface(
                     linkage,
                     options.link_of(linkage.chain, ground),
                     options.joint_of(linkage.chain, driver),
@@ -571,7 +577,7 @@ def _print_linkages(answers: Sequence[Any], kind: Kind, *, as_json: bool) -> Non
         click.echo(f"no {kind}")
 
 
-def _point(linkage: synth.conformed.OnSurface, text: str) -> synth.moving.LinkPoint:
+def _point(linkage: synth.linkages.conformed.OnSurface, text: str) -> synth.analysis.moving.LinkPoint:
     """Return a point of a link, by its azimuth at the conformed position and its length along the ruling line."""
     link, *numbers = text.split(",")
     try:
@@ -580,10 +586,10 @@ def _point(linkage: synth.conformed.OnSurface, text: str) -> synth.moving.LinkPo
         raise click.UsageError(
             f"--point: {plain(text)!r} is not LINK,AZIMUTH or LINK,AZIMUTH,ALONG, such as 2,30"
         ) from None
-    return synth.moving.LinkPoint(options.link_of(linkage.chain, link), radians(azimuth), along)
+    return synth.analysis.moving.LinkPoint(options.link_of(linkage.chain, link), radians(azimuth), along)
 
 
-def _pair(linkage: synth.conformed.OnSurface, text: str) -> tuple[LinkId, LinkId]:
+def _pair(linkage: synth.linkages.conformed.OnSurface, text: str) -> tuple[LinkId, LinkId]:
     names = text.split(",")
     if len(names) != 2:
         raise click.UsageError(f"--axes: {plain(text)!r} is not LINK,LINK, such as 1,3")

@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-import synth.tasks
+import synth.synthesis.tasks
 from synth.cli import options
 from synth.cli.output import about, check_output, print_result, progress_line
 
 if TYPE_CHECKING:
-    from synth.tasks import RankedTypes
+    from synth.synthesis.tasks import RankedTypes
 
 
 @click.command()
@@ -59,7 +59,7 @@ def task(
     """
     if structure_only:
         with about(task):
-            print_result(synth.tasks.task(task, structure_only=True), {"file": task}, as_json=as_json)
+            print_result(synth.synthesis.tasks.task(task, structure_only=True), {"file": task}, as_json=as_json)
         return
     if (resume or scheduler is not None) and store is None:
         raise click.UsageError("--resume and --scheduler require --store STORE")
@@ -67,19 +67,19 @@ def task(
         raise click.UsageError("--pages requires -o FOLDER")
     check_output(report, force=force)
     if output is not None:
-        from synth.tasks.report import check_folder_of_designs
+        from synth.synthesis.tasks.report import check_folder_of_designs
 
         check_folder_of_designs(Path(output), force=force)
     settings = {"starts": starts, "rounds": rounds, "seed": seed, "weights": dict(options.weights_of(weigh))}
     settings |= {"store": store, "resume": resume, "force": force, "workers": workers, "scheduler": scheduler}
     answer = _answer(task, settings)
-    written = [] if output is None else synth.tasks.write_designs(answer, output, force=force)
+    written = [] if output is None else synth.synthesis.tasks.write_designs(answer, output, force=force)
     notes: list[str] = []
     if pages and output is not None:
-        shown, notes = synth.tasks.write_pages(answer, output, force=force)
+        shown, notes = synth.synthesis.tasks.write_pages(answer, output, force=force)
         written += shown
     if report is not None:
-        written.append(synth.tasks.write_report(answer, report, force=force))
+        written.append(synth.synthesis.tasks.write_report(answer, report, force=force))
     keys = {"file": task, **({"written": list(map(str, written))} if as_json else {})}
     print_result(answer, keys, as_json=as_json, written=written)
     for note in notes:
@@ -96,7 +96,7 @@ def _answer(task: str, settings: dict[str, Any]) -> RankedTypes:
     settings["workers"] = settings["workers"] or cores()
     try:
         with about(task), progress_line() as show:
-            return synth.tasks.task(
+            return synth.synthesis.tasks.task(
                 task, report=lambda number, done: show(f"round {number + 1}: start {done.done} of {done.units}"),
                 **settings,
             )  # fmt: skip

@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING
 
 import click
 
-import synth.thickening
+import synth.making.thickening
 from synth.cli import options
 from synth.cli.output import about, check_output, print_answer, print_json, tell_written
 from synth.cli.reading import MECHANISM, PRECISION, precise_sheet, read
 
 if TYPE_CHECKING:
     from graphs.mechanism import Sheet
-    from synth.thickening import ThickSheet
+    from synth.making.thickening import ThickSheet
 
 
 @click.command()
@@ -87,14 +87,14 @@ def thicken(
       synth thicken miura.fold --thickness 6 --size 300 -o thick.json
       synth thicken miura.fold --thickness 6 --scale 100 -o thick.gltf
     """
-    from graphs.files.accepted import mechanism_for
+    from graphs.files.mechanism_like import mechanism_for
     from graphs.mechanism import Sheet
 
     check_output(output, force=force)
     mechanism = read(file)
     with about(file):
         sheet = precise_sheet(mechanism_for("thicken", mechanism, Sheet))
-        thick = synth.thickening.thicken(
+        thick = synth.making.thickening.thicken(
             sheet,
             thickness=thickness,
             how=how,
@@ -118,7 +118,7 @@ def thicken(
 def _scale(sheet: Sheet, scale: float | None, size: float | None) -> float:
     """Return the millimetres per unit of the coordinates of a sheet, by a scale, a size, or the unit of its file."""
     from graphs.mechanism.precision import in_space
-    from synth.templates.template import millimetres, scale_of
+    from synth.making.templates.template import millimetres, scale_of
 
     if size is None or sheet.coordinates is None:
         return scale_of(sheet, scale, size) or 1.0
@@ -128,7 +128,7 @@ def _scale(sheet: Sheet, scale: float | None, size: float | None) -> float:
 def _written(thick: ThickSheet, output: str, *, force: bool) -> tuple[tuple[str, ...], tuple[str, ...]]:
     """Write what the extension says; return the files, and what they do not hold."""
     from synth.exporters import EXPORTERS
-    from synth.templates.writing import write_template
+    from synth.making.templates.writing import write_template
 
     if Path(output).suffix.lower() in EXPORTERS["templates"]:
         return tuple(map(str, write_template(thick.template(), output, force=force))), ()

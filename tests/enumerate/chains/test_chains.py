@@ -12,7 +12,7 @@ from enumerate.chains.fractionated import glued, shapes
 from enumerate.chains.jobs import chain_rows, chains, count_chains, count_job
 from enumerate.chains.query import ChainQuery
 from enumerate.chains.rows import are_inputs, input_choices
-from enumerate.runner.running import run
+from enumerate.runner._run import run
 from enumerate.runner.sinks import CountSink
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.identity.chains import automorphisms_of, chain_id

@@ -10,7 +10,7 @@ import pytest
 
 from enumerate.chains.jobs import CountJob
 from enumerate.chains.query import ChainQuery
-from enumerate.runner.running import run
+from enumerate.runner._run import run
 from enumerate.runner.sinks import CountSink
 from enumerate.runner.store import SqliteSink
 from graphs.errors import StoreError

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from enumerate.conical.rounds import Rounds, count_rounds_by_burnside
-from enumerate.kernel.compiled import number_of_orbits
+from enumerate.kernel._compiled import number_of_orbits
 
 
 def test_a_remainder_is_a_fault():

@@ -15,8 +15,8 @@ import synth
 from enumerate.kernel import words
 from enumerate.machine_code import weights
 from enumerate.machine_code.folders import INTERPRETED
+from enumerate.runner._run import rows_of
 from enumerate.runner.job import Unit
-from enumerate.runner.running import rows_of
 
 ALL = (1 << 64) - 1
 SWITCH = """
@@ -45,7 +45,7 @@ import numpy as np
 from enumerate.chains import ChainJob, ChainQuery, count_job
 from enumerate.conical import ConicalQuery, count_conical_orders
 from enumerate.conical.rounds import fewest_layers
-from enumerate.runner.running import tuples_of
+from enumerate.runner._run import tuples_of
 from enumerate.sc import SCJob, SCQuery, sc_count_job, sc_graphs
 from enumerate.scd import SCDJob, all_mechanisms, scd_count_job, simplest_scd_graph
 

@@ -9,7 +9,7 @@ from clusters import cluster, free_port
 from commands import run as command_line
 from toy_job import Squares
 
-from enumerate.runner.running import run
+from enumerate.runner._run import run
 from enumerate.runner.sinks import RowSink
 from enumerate.runner.store import SqliteSink, read_meta, read_rows
 from graphs.errors import StoreError

@@ -13,8 +13,8 @@ import pytest
 
 from enumerate.chains.jobs import ChainJob
 from enumerate.chains.query import ChainQuery
+from enumerate.runner._run import run
 from enumerate.runner.job import Column, ListColumn, RangeColumn, Row, Unit, row_as_dict, stored, unstored
-from enumerate.runner.running import run
 from enumerate.runner.sinks import JsonLinesSink, LatexSink, ParquetSink, SortedSink
 from enumerate.runner.store import SqliteSink, read_meta, read_rows
 

@@ -13,7 +13,7 @@ import pytest
 from sizes import slow
 from toy_job import Squares
 
-from enumerate.runner.running import run
+from enumerate.runner._run import run
 from enumerate.runner.sinks import RowSink
 from graphs.errors import StoreError
 

@@ -16,7 +16,7 @@ from toy_job import Squares
 
 from enumerate.chains.jobs import ChainJob, count_chains
 from enumerate.chains.query import ChainQuery
-from enumerate.runner.running import run
+from enumerate.runner._run import run
 from enumerate.runner.sinks import sink_for
 from enumerate.runner.store import SqliteSink, read_meta
 

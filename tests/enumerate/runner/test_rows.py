@@ -9,7 +9,7 @@ from toy_job import Squares
 from enumerate.addenda import addenda
 from enumerate.chains.jobs import chain_rows
 from enumerate.conical.query import ConicalQuery, conical_orders, count_conical_orders
-from enumerate.runner.running import rows_of, total_of
+from enumerate.runner._run import rows_of, total_of
 from enumerate.sc.jobs import sc_rows
 from enumerate.scd.jobs import scd_rows
 from graphs.loops.loop import Loop

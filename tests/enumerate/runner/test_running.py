@@ -13,7 +13,7 @@ from toy_job import Squares
 
 from enumerate.chains.jobs import ChainJob
 from enumerate.chains.query import ChainQuery
-from enumerate.runner.running import run
+from enumerate.runner._run import run
 from enumerate.runner.sinks import CountSink, RowSink, SortedSink
 from enumerate.runner.stopping import Interrupted
 from enumerate.runner.store import SqliteSink, read_meta, read_rows

@@ -4,8 +4,8 @@ from dataclasses import dataclass
 import pytest
 from sizes import slow
 
+from enumerate.runner._run import run
 from enumerate.runner.job import Counting, Unit
-from enumerate.runner.running import run
 from enumerate.runner.sinks import RowSink
 
 

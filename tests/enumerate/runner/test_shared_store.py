@@ -11,7 +11,7 @@ from toy_job import Squares
 
 from enumerate.chains.jobs import ChainJob
 from enumerate.chains.query import ChainQuery
-from enumerate.runner.running import run
+from enumerate.runner._run import run
 from enumerate.runner.store import SqliteSink, read_meta, read_rows
 from graphs.errors import StoreError
 

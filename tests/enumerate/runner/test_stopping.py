@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 from toy_job import Squares
 
-from enumerate.runner.running import run
+from enumerate.runner._run import run
 from enumerate.runner.sinks import FolderSink, JsonLinesSink, RowSink
 from enumerate.runner.stopping import Interrupted
 from enumerate.runner.store import SqliteSink, read_rows

@@ -12,7 +12,7 @@ from toy_job import Squares
 
 from enumerate.chains.jobs import ChainJob
 from enumerate.chains.query import ChainQuery
-from enumerate.runner.running import run
+from enumerate.runner._run import run
 from enumerate.runner.store import SqliteSink, read_meta, read_rows
 from enumerate.runner.store_units import UnitTable, make_tables
 from graphs.errors import StoreError

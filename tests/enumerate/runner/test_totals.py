@@ -16,7 +16,7 @@ from runs import contents, enumerating, kill, units_in, wait_for
 
 from enumerate.chains.jobs import CountJob, count_job
 from enumerate.chains.query import ChainQuery
-from enumerate.runner.running import run
+from enumerate.runner._run import run
 from enumerate.runner.sinks import CountSink
 from enumerate.runner.stopping import Interrupted
 from enumerate.runner.store import SqliteSink, read_meta, read_rows
@@ -29,7 +29,7 @@ _KILLED = """
 import os, signal, sys
 from enumerate.chains.jobs import count_job
 from enumerate.chains.query import ChainQuery
-from enumerate.runner.running import run
+from enumerate.runner._run import run
 from enumerate.runner.store import SqliteSink
 from enumerate.runner.sinks import CountSink
 

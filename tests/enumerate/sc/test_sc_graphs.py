@@ -10,7 +10,7 @@ from rigidity import chains_by_geng
 from sizes import slow
 
 from enumerate.chains.jobs import chain_rows
-from enumerate.runner.running import rows_of, run
+from enumerate.runner._run import rows_of, run
 from enumerate.runner.sinks import RowSink
 from enumerate.sc.jobs import FormJob, SCJob, count_sc_graphs, sc_graphs, sc_rows
 from enumerate.sc.query import SCQuery

@@ -3,7 +3,7 @@ import pytest
 from sizes import slow
 
 from enumerate.kernel.centres import FINITE, OUTER
-from enumerate.runner.running import rows_of
+from enumerate.runner._run import rows_of
 from enumerate.sc.jobs import sc_graphs
 from enumerate.scd.fewest import fewest_open_edges
 from enumerate.scd.jobs import SCDJob, mechanism_of, scd_graphs, simplest_scd_graph

@@ -3,7 +3,7 @@
 import pytest
 from commands import run
 
-from enumerate.runner.running import total_of
+from enumerate.runner._run import total_of
 from enumerate.scd.jobs import least_max_degree, mechanism_of, scd_count_job
 from graphs.errors import UnsolvableError
 from graphs.files.formats import read

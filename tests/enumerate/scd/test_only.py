@@ -10,7 +10,7 @@ from seeded import seed_file
 from sizes import slow
 
 import synth
-from enumerate.runner.running import total_of
+from enumerate.runner._run import total_of
 from enumerate.sc.jobs import sc_graphs
 from enumerate.scd.jobs import mechanism_of, scd_count_job
 from enumerate.scd.only import only_scd_graph

@@ -3,8 +3,8 @@ from rigidity import chains_by_geng
 from scd_oracle import code, scd_codes
 from sizes import slow
 
+from enumerate.runner._run import run
 from enumerate.runner.job import row_as_dict
-from enumerate.runner.running import run
 from enumerate.runner.sinks import CountSink, RowSink
 from enumerate.sc.jobs import sc_rows
 from enumerate.scd.jobs import (
@@ -19,8 +19,8 @@ from enumerate.scd.jobs import (
 )
 from enumerate.scd.patterns import number_of_placements
 from enumerate.scd.query import PlacementQuery, SCDQuery
+from graphs.convert.conversions import to_sc
 from graphs.convert.panels import polyhedron_of
-from graphs.convert.table import to_sc
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.files.formats import read
 from graphs.files.native import dumps

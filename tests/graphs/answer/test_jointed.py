@@ -4,12 +4,12 @@ import pytest
 from random_joints import random_jointed
 from second_methods import freedoms_by_screws
 
-from graphs.answer.jointed import passive_freedoms
 from graphs.answer.mechanisms import mobility
+from graphs.answer.mobility_of_joints import passive_freedoms
 from graphs.joints import JointedLinkage, JointKind, placed
 from graphs.joints.linkage import legs
 from graphs.mechanism.sc import SCGraph
-from synth.patterns import generate
+from synth.catalogue.patterns import generate
 
 PLATFORMS = {
     "stewart": (6, 0), "6-rus": (6, 0), "6-uuu": (6, 0), "6-sps": (12, 6), "3-rps": (3, 0), "3-upu": (3, 0),

@@ -5,17 +5,17 @@ import pytest
 from random_joints import random_jointed
 from second_methods import freedoms_by_screws
 
-from graphs.answer.jointed import report_of_joints, with_planar_loops
 from graphs.answer.mechanisms import mobility
+from graphs.answer.mobility_of_joints import report_of_joints, with_planar_loops
 from graphs.errors import InvariantError
 from graphs.files.formats import read
 from graphs.joints import JointedLinkage, JointKind, JointPlace, placed, points_of
-from graphs.joints.as_points import rods_between_balls
+from graphs.joints.rods_and_points import rods_between_balls
 from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.solids import HingedSolids
 from graphs.rank.rods import exact_mobility_of_model
-from synth.patterns import generate
+from synth.catalogue.patterns import generate
 
 PLANAR = (Loop(range(4), "infinite"),)
 

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
+from graphs.convert.conversions import graph_of, to_joints, to_solids
 from graphs.convert.cycles import HingedFaces, boundary_cycles, loops_with_centres
 from graphs.convert.faces import creases_on_no_face, joins_faces, traced_anew, with_simple_faces
 from graphs.convert.panels import internal_rods, rings_of, scd_of_placed_panels
-from graphs.convert.table import graph_of, to_joints, to_solids
 from graphs.convert.tracing import crossings
 from graphs.edit.named import joint_named, known
 from graphs.errors import InvariantError

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from graphs.answer.identity import identify
-from graphs.convert.table import to_scd
+from graphs.convert.conversions import to_scd
 from graphs.errors import InvariantError
 from graphs.loops.loop import Centre
 from graphs.mechanism.sheet import Sheet

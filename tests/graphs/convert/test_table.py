@@ -5,8 +5,8 @@ import pytest
 from hypothesis import given
 from strategies import scd_graphs
 
+from graphs.convert.conversions import CONVERSIONS, to_polyhedron, to_sc, to_scd, to_sheet, to_vertex_edge
 from graphs.convert.panels import oriented_panels, scd_from_panels
-from graphs.convert.table import CONVERSIONS, to_polyhedron, to_sc, to_scd, to_sheet, to_vertex_edge
 from graphs.count.report import mobility_report
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.loops.loop import Loop

@@ -8,7 +8,7 @@ from graphs.creasing.edits import take_off_panels
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.files.formats import read
 from graphs.reduce.ride_alongs import reduce
-from synth.patterns.creases import miura
+from synth.catalogue.patterns.creases import miura
 
 
 def test_creases_beside_them_are_borders_and_the_rest_stays():

@@ -14,7 +14,7 @@ import pytest
 from graphs.convert.link_joint import sc_from_link_joint_graph
 from graphs.errors import FileError, InvariantError
 from graphs.files.formats import read, read_all
-from graphs.limits import LIMITS, VARIABLE, most
+from graphs.input_limits import LIMITS, VARIABLE, most
 
 SVG = '<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink">'
 POLYHEDRON = {"format": "synthedra/polyhedron", "version": 1}

@@ -14,7 +14,7 @@ from strategies import randoms
 from graphs.errors import FileError, SynthedraError
 from graphs.files.formats import read
 from graphs.files.native import orientation_rows, orientations_document, rows_from_document
-from synth.guidance.orientations import Orientations, read_orientations
+from synth.linkages.guidance.orientations import Orientations, read_orientations
 
 ROOT = Path(__file__).resolve().parents[3]
 SCHEMA = json.loads((ROOT / "graphs" / "schema" / "orientations.schema.json").read_text(encoding="utf-8"))

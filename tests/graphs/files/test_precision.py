@@ -9,7 +9,7 @@ import pytest
 from graphs.files.formats import read, write
 from graphs.mechanism.precision import extent_of, precision_of_sheet, stated
 from graphs.mechanism.sheet import with_all_edges
-from synth.patterns import generate
+from synth.catalogue.patterns import generate
 
 COLOURS = {"M": "#ff0000", "V": "#0000ff", "B": "#000000"}
 

@@ -13,7 +13,7 @@ from hypothesis import given, strategies as st
 
 import graphs.identity.numbering as numbering
 from enumerate.chains.jobs import chain_rows
-from graphs.convert.table import to_sc
+from graphs.convert.conversions import to_sc
 from graphs.errors import SynthedraError
 from graphs.files.formats import READERS, read
 from graphs.identity.chains import automorphisms_of, chain_from_id, chain_id, class_code, symmetries_of_links

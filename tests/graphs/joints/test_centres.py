@@ -7,14 +7,14 @@ import numpy as np
 import pytest
 
 import synth
-from graphs.convert.table import to_solids
+from graphs.convert.conversions import to_solids
 from graphs.joints.centres import centred_by_axes
 from graphs.loops.loop import Centre
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.solids import HingedSolids
 from graphs.tolerances import EPSILON
-from synth.moving.made import configuration_of
-from synth.patterns import generate
+from synth.analysis.moving._configuration_of import configuration_of
+from synth.catalogue.patterns import generate
 
 CASES = Path(__file__).parents[3].parent / "shared" / "cases"
 

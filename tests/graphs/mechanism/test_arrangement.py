@@ -3,10 +3,10 @@
 import networkx as nx
 import pytest
 
-from graphs.convert.table import graph_of
+from graphs.convert.conversions import graph_of
 from graphs.loops.loop import Loop
 from graphs.mechanism.sc import ARRANGEMENTS, SCGraph, _directions, arrangement_of, centre_graph
-from synth.patterns import generate
+from synth.catalogue.patterns import generate
 
 
 @pytest.mark.parametrize(

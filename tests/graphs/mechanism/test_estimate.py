@@ -12,7 +12,7 @@ from sizes import slow
 from graphs.mechanism.estimate import estimate_of
 from graphs.mechanism.precision import BY_DIGITS, extent_of, precision_as_written, precision_of_sheet, stated
 from graphs.mechanism.sheet import Sheet
-from synth.patterns import generate
+from synth.catalogue.patterns import generate
 
 PATTERNS = {
     "miura": {"rows": 5, "columns": 5},

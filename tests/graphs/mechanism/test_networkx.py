@@ -11,7 +11,7 @@ import pytest
 from networkx_functions import graphs_made
 
 import synth
-from graphs.convert.table import mechanism_of_graph
+from graphs.convert.conversions import mechanism_of_graph
 from graphs.errors import InvariantError, SynthedraError
 from graphs.files.native import dumps
 from graphs.loops.loop import Loop
@@ -19,7 +19,7 @@ from graphs.mechanism.attributes import LoopPlace
 from graphs.mechanism.polyhedron import PointConstraint, PolyhedronModel, RemoteCentre
 from graphs.mechanism.sc import SCGraph, SpecialGeometry
 from graphs.mechanism.scd import SCDGraph
-from synth.drawing.scene.writing import svg_text
+from synth.making.drawing.scene.writing import svg_text
 
 WATT = [(0, 1), (1, 2), (2, 3), (3, 0), (3, 4), (4, 5), (5, 0)]
 LOOPS = [Loop((0, 1, 2, 3)), Loop((3, 4, 5, 6))]

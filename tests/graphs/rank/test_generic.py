@@ -10,8 +10,8 @@ from rigidity import chains_by_geng
 from sizes import slow
 from strategies import random_sc
 
+from graphs.convert.conversions import to_sc
 from graphs.convert.link_joint import sc_from_link_joint_graph
-from graphs.convert.table import to_sc
 from graphs.count.equations import loop_form
 from graphs.count.report import mobility_report
 from graphs.errors import SynthedraError, UnsolvableError

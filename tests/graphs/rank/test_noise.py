@@ -18,7 +18,7 @@ from graphs.mechanism.sheet import Sheet
 from graphs.rank.dissection import number_below, sparse_spectrum
 from graphs.rank.pose import closure_at_pose, pose_mobility
 from graphs.rank.singular_values import spectrum
-from synth.conformed.rates import ConformedChain, first_order
+from synth.linkages.conformed.rates import ConformedChain, first_order
 
 
 @pytest.mark.parametrize("number", [80, slow(6000)])

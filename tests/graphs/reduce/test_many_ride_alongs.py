@@ -46,7 +46,7 @@ def test_each_closing_with_the_one_before_it_in_any_order(options, monkeypatch):
     def eliminated(*_):
         raise AssertionError("an elimination")
 
-    monkeypatch.setattr("graphs.reduce.working.in_span_of", eliminated)
+    monkeypatch.setattr("graphs.reduce.working_graph.in_span_of", eliminated)
     sc = on_one_pair(500, after=True, **options)
     rng = random.Random(3)
     joints, loops = list(sc.joints), list(sc.loops)

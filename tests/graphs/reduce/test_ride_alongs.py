@@ -18,7 +18,7 @@ from graphs.identity.chains import class_code
 from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.reduce.ride_alongs import reduce
-from graphs.reduce.working import RULES
+from graphs.reduce.working_graph import RULES
 
 DATA = Path(__file__).resolve().parents[3] / "data"
 

@@ -70,7 +70,7 @@ ROWS = [
     Row(
         "Eq. 7",
         "largest cone angle of links 120, 155, 100 degrees",
-        "np.degrees(synth.surfaces.loop_maps.largest_cone_angle(np.radians([120, 155, 100])))",
+        "np.degrees(synth.linkages.surfaces.loop_maps.largest_cone_angle(np.radians([120, 155, 100])))",
         misprint="000-10",
         words="any lambda from 0 to 90 degrees",
         right=[30.0, 12.5, 40.0],
@@ -79,7 +79,7 @@ ROWS = [
     Row(
         "Eqs. 8 to 11, 17",
         "joint axis O, lambda = 20 degrees",
-        "synth.conformed.joint_axes([0.0], np.radians(20))[0]",
+        "synth.linkages.conformed.joint_axes([0.0], np.radians(20))[0]",
         right=[0.0, -0.342020143326, 0.939692620786],
         misprint="000-9",
         words="garbled at hand",
@@ -88,7 +88,7 @@ ROWS = [
     Row(
         "Table 1",
         "circuits of steps 100, -50, 100; 90, 80, 100; 50, 40, 30; 170, 170, 170: one of each row",
-        "[str(synth.surfaces.circuits(np.radians(steps)).names()) for steps in "
+        "[str(synth.linkages.surfaces.circuits(np.radians(steps)).names()) for steps in "
         "([100, -50, 100, -150], [90, 80, 100, 90], [50, 40, 30, -120], [170, 170, 170, -150])]",
         printed=["open", "crossed", "crossed", "open"],
         right=["crossed", "open", "open", "crossed"],
@@ -98,7 +98,7 @@ ROWS = [
     Row(
         "Table 2, Eqs. 13, 14",
         "sign of the dihedral angle between links with steps 40 and 60; 40 and -20; -40 and 60",
-        "[int(np.sign(synth.conformed.dihedral_angles(np.radians([a, b, -a - b]), np.radians(20))[1])) "
+        "[int(np.sign(synth.linkages.conformed.dihedral_angles(np.radians([a, b, -a - b]), np.radians(20))[1])) "
         "for a, b in ((40, 60), (40, -20), (-40, 60))]",
         printed=[-1, 1, 1],
         right=[1, -1, -1],
@@ -138,11 +138,11 @@ ROWS = [
     Row(
         "Sections 3, 5, T4 > 0",
         "numbers of cones of Grashof and of non-Grashof linkages with T4 > 0, of 5 000 random linkages that lie on a cone",
-        "(lambda random: synth.surfaces.link_angles((lambda at: np.roll(at, -1, axis=1) - at)"
+        "(lambda random: synth.linkages.surfaces.link_angles((lambda at: np.roll(at, -1, axis=1) - at)"
         "(random.uniform(-np.pi, np.pi, (5000, 4))), random.uniform(0.05, 1.4, (5000, 1))))(np.random.default_rng(1))",
         "(lambda t, cones: [np.unique(np.sum(np.isfinite(cones), axis=0)[(t[:, 3] > 0) & (sign * t.prod(axis=1) > 0)]) "
-        "for sign in (1, -1)])(synth.fourbar.closing.spherical_differences(answer), "
-        "(lambda found: [found.open, found.crossed])(synth.surfaces.cone_angles(answer)))",
+        "for sign in (1, -1)])(synth.linkages.fourbar.closing.spherical_differences(answer), "
+        "(lambda found: [found.open, found.crossed])(synth.linkages.surfaces.cone_angles(answer)))",
         printed=[[2], [1]],
         words="Grashof two cones, non-Grashof one",
         golden="000/cone_count_claim",
@@ -153,7 +153,7 @@ ROWS = [
         "synth cone behaviour --steps 50,110,80 --lambda 20 --ground 4 --json",
         "next(link['icrl_deg'] for link in answer['linkages'][0]['links'] if link['link'] == 2) % 180",
         second="(lambda o, a, b, c: (lambda p: np.degrees(np.arctan2(p[0], p[2])) % 180)(np.cross(np.cross(o, a), "
-        "np.cross(c, b))))(*synth.conformed.joint_axes(np.radians([0, 50, 160, 240]), np.radians(20)))",
+        "np.cross(c, b))))(*synth.linkages.conformed.joint_axes(np.radians([0, 50, 160, 240]), np.radians(20)))",
         words="the projection of the pole axis goes through the circle's centre and the planar instant centre",
         golden="000/icrl_projection",
     ),

@@ -105,7 +105,7 @@ ROWS = [
         "Eq. 11",
         "area of 4, 3, 5, 1, crossed",
         _FIG_10,
-        "synth.surfaces.loop_sums.crossed_area(np.array([4.0, 3, 5, 1]))",
+        "synth.linkages.surfaces.loop_sums.crossed_area(np.array([4.0, 3, 5, 1]))",
         second="abs(sum(a[0] * b[1] - b[0] * a[1] for a, b in (lambda at: zip(at, at[1:] + at[:1]))"
         "(answer['cylinders'][1]['coordinates']))) / 2",
         words="K = sqrt(P1 P2 P3 P4) / 4",
@@ -180,7 +180,7 @@ ROWS = [
     Row(
         "Table 2",
         "R, crossed",
-        "synth.surfaces.circumradii(2 * np.sin(np.radians([70, 80, 120, 40]) / 2)).crossed",
+        "synth.linkages.surfaces.circumradii(2 * np.sin(np.radians([70, 80, 120, 40]) / 2)).crossed",
         printed=2.3064,
         within=0.00005,
         golden="001/table2/R_crossed",

@@ -33,7 +33,7 @@ ROWS = [
     Row(
         "Table 1",
         "x1 of orientation M3",
-        f"synth.guidance.orientations.read_orientations('{_RIGHT}').quaternions[2][1]",
+        f"synth.linkages.guidance.orientations.read_orientations('{_RIGHT}').quaternions[2][1]",
         printed=0.041131,
         right=-0.041131,
         within=0.0000005,

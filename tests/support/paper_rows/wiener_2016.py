@@ -453,7 +453,7 @@ ROWS = [
     Row(
         "Appendix A",
         "alpha of B over A and A', theta = 65, phi = 25: half the diagonal of a rhombus of links theta, opened by 2 phi",
-        "synth.fourbar.position.output_spherical(np.radians([65] * 4), "
+        "synth.linkages.fourbar.position.output_spherical(np.radians([65] * 4), "
         "2 * np.arcsin(np.sin(np.radians(25)) / np.sin(np.radians(65))), -1)",
         "np.degrees(np.arcsin(np.sin(np.radians(65)) * np.cos(answer / 2)))",
         second="np.degrees(np.arccos(np.cos(np.radians(65)) / np.cos(np.radians(25))))",

@@ -10,7 +10,7 @@ import pytest
 from mutated_files import mutated, seeds
 from sizes import night, slow
 
-from graphs.convert.table import CONVERSIONS, FORMS
+from graphs.convert.conversions import CONVERSIONS, FORMS
 from graphs.errors import SynthedraError
 from graphs.files.formats import READERS, WRITERS, read_all
 

@@ -13,7 +13,7 @@ from commands import run
 from cranks import random_orientations
 from sizes import slow
 
-from synth.guidance.orientations import read_orientations, write_orientations
+from synth.linkages.guidance.orientations import read_orientations, write_orientations
 
 AXIS_1, AXIS_2 = "0.054261,-0.996977,0.055603", "-0.349442,-0.144163,0.925801"
 

@@ -30,7 +30,7 @@ def test_lists_name_what_is_known():
 
 
 def test_names_are_those_of_the_file_of_names():
-    from synth.atlas.columns import name_of_id, named_types
+    from synth.synthesis.atlas.columns import name_of_id, named_types
 
     for entry in named_types():
         if entry.kind in ("chain", "sc"):
@@ -126,7 +126,7 @@ def test_no_table_has_two_columns_of_one_name():
 
 
 def test_names_of_types_are_none_of_files():
-    from synth.atlas.columns import named_types
+    from synth.synthesis.atlas.columns import named_types
 
     names = [entry.name for entry in named_types()]
     assert not [name for name in names if re.search(r"\bfig\d|\btable\d|\brow\d|\d bar|ride along|six bar", name)]

@@ -15,7 +15,7 @@ from sizes import slow
 
 from graphs.files.formats import write
 from graphs.mechanism.surfaces import SurfaceLinkage
-from synth.surfaces.circuit import link_angles, link_pairs
+from synth.linkages.surfaces.circuit import link_angles, link_pairs
 
 ROOT = Path(__file__).resolve().parents[3]
 FIG_11 = ROOT / "data" / "surfaces" / "fig11-stephenson.json"

@@ -17,12 +17,12 @@ from graphs.errors import FileError
 from graphs.joints.linkage import JointedLinkage, JointKind
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.solids import HingedSolids
-from synth.moving.made import configuration_of
-from synth.patterns.catalogue import GENERATORS
-from synth.simulation.assembly import assembly_of
-from synth.simulation.mjcf import mjcf_bytes
-from synth.simulation.sdf import sdf_bytes
-from synth.simulation.urdf import urdf_files
+from synth.analysis.moving._configuration_of import configuration_of
+from synth.catalogue.patterns.generators import GENERATORS
+from synth.making.simulation.assembly import assembly_of
+from synth.making.simulation.mjcf import mjcf_bytes
+from synth.making.simulation.sdf import sdf_bytes
+from synth.making.simulation.urdf import urdf_files
 
 DATA = Path(__file__).parents[4] / "data"
 FILES = sorted([*DATA.glob("linkages/*.*"), *DATA.glob("joints/*.json"), *DATA.glob("patterns/*.fold"),

@@ -1,9 +1,0 @@
-from synth.advice.advice import (
-    Advice as Advice,
-    AdviceTable as AdviceTable,
-    Creased as Creased,
-    Locked as Locked,
-    advise as advise,
-)
-from synth.advice.diagonals import Diagonal as Diagonal
-from synth.advice.locks import GeneralPose as GeneralPose, cheapest_sets as cheapest_sets

@@ -1,6 +1,0 @@
-from synth.assembly.modes import (
-    AssemblyMode as AssemblyMode,
-    PositionSet as PositionSet,
-    PositionTable as PositionTable,
-    positions as positions,
-)

@@ -1,1 +1,0 @@
-from synth.drawing.layout.mechanisms import Layout as Layout, layout_of as layout_of

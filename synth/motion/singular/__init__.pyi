@@ -1,2 +1,0 @@
-from synth.motion.singular.sampling import freedoms_at as freedoms_at
-from synth.motion.singular.second_order import Rigidity as Rigidity, rigidity_of as rigidity_of
