@@ -24,7 +24,7 @@ from graphs.types import Floats
 from synth.analysis.moving._configuration_of import configuration_of
 from synth.catalogue.realisation.measures import first_order_freedoms
 from synth.catalogue.realisation.pattern import check_search
-from synth.linkages.conformed.orders import Row, candidate_for
+from synth.linkages.conformed.orders import CandidateRow, candidate_for
 from synth.linkages.conformed.rates import ConformedChain, first_order
 from synth.linkages.surfaces.circuit import link_pairs, loop_steps, wrapped
 from synth.linkages.surfaces.linkage_maps import by_sizes, map_linkage
@@ -141,7 +141,7 @@ class ConeRealisation(Printed):
 
 
 def realise_on_cone(
-    mechanism: MechanismLike | Row, *, cone_angle: float = CONE_ANGLE, seed: int = 0, tries: int = 12
+    mechanism: MechanismLike | CandidateRow, *, cone_angle: float = CONE_ANGLE, seed: int = 0, tries: int = 12
 ) -> ConeRealisation:
     """Lay the joint axes of a type with one centre round a right cone.
 

@@ -19,6 +19,8 @@ from graphs.mechanism.surfaces import Surface, SurfaceLinkage
 
 Row: TypeAlias = Mapping[str, Any]
 """Column to value."""
+CandidateRow: TypeAlias = Mapping[str, object]
+"""A row of `synth.conical_candidates`, or of a list of them: column to value, as callers pass it."""
 
 
 class _WithLinkage(Protocol):
@@ -28,7 +30,7 @@ class _WithLinkage(Protocol):
     def linkage(self) -> SurfaceLinkage: ...
 
 
-SurfaceLike: TypeAlias = MechanismLike | Row | _WithLinkage
+SurfaceLike: TypeAlias = MechanismLike | CandidateRow | _WithLinkage
 """A linkage on a surface, its file, a row of `synth.conical_candidates`, or the result of `synth.realise_on_cone`."""
 
 
