@@ -1,4 +1,4 @@
-"""Steps of least squares, with a residual r, a Jacobian J and a damping: each minimises |J s + r|^2 and some |s|^2.
+"""Steps of least squares: each minimises ``|J s + r|^2`` and some ``|s|^2``; residual r, Jacobian J, a damping.
 
 A step with one damping for all unknowns is a sum of rows of J, so it has no part along which no residual changes,
 and rounding adds none. Theory: docs/theory/least-squares.md.
@@ -18,7 +18,7 @@ Scaling = Callable[[Floats, Floats], Floats]
 
 
 def damped_step(jacobian: Floats, residual: Floats, damping: float) -> Floats:
-    """Return the step s that minimises |J s + r|^2 + damping |s|^2.
+    """Return the step s that minimises ``|J s + r|^2 + damping |s|^2``.
 
     It is found by a QR decomposition with the residual beside the matrix: where the entries of J differ much in size,
     J' J would square the rounding errors too.
@@ -83,7 +83,7 @@ def bounded_step(unknowns: Floats, jacobian: Floats, residual: Floats, bounds: B
 
 
 def minimum_norm_step(jacobian: Floats, residual: Floats) -> Floats:
-    """Return the shortest step s that minimises |J s + r|: that of Gauss and Newton, undamped.
+    """Return the shortest step s that minimises ``|J s + r|``: that of Gauss and Newton, undamped.
 
     Singular values below `Tolerances.zero` of the largest count as zero.
 
