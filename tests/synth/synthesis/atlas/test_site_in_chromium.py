@@ -65,7 +65,7 @@ def test_search_filter_sort_and_deep_links(site: Path, tab: Any) -> None:
     tab.wait_for_selector(".card")
     every = tab.locator(".status").text_content()
     tab.get_by_label("Search").fill("four-bar")
-    assert tab.locator(".status").text_content() == f"1 of {every}"
+    assert tab.locator(".status").text_content() == f"2 of {every}"  # the chain, and the spherical four-bar
     assert tab.url.endswith("#text=four-bar")
     tab.goto(f"{site.as_uri()}#kind=scd&realised=yes&sort=-fold_deg")
     expect(tab.locator(".status")).to_have_text(re.compile("^7 of"))
