@@ -231,6 +231,8 @@ def definite_weights(forms: Floats, clear: float) -> tuple[Floats, float] | None
     if not len(forms) or not forms.shape[1]:
         return None
     size = float(np.abs(forms).max())
+    if size <= DOUBLE.zero:  # forms of unit vectors that are zero but for rounding have no signs
+        return None
     seen = np.trace(forms, axis1=1, axis2=2)[None] / forms.shape[1]
     for _ in range(_MOST):
         shares = _shares(seen / size)
