@@ -17,7 +17,12 @@ _RADIUS = 2.0**-70
 """Half the side of the box in which a solution is proved to be, and to be the only one: radians and extents."""
 _NEWTON = 6
 _NUDGE = 1e-18
-_FIRST, _LARGEST, _LEAST = 0.02, 0.1, 1e-14
+_FIRST = 0.02
+"""First step of the parameter from 0 to 1."""
+_LARGEST = 0.1
+"""Longest step: longer ones could jump to a neighbouring path."""
+_LEAST = 1e-14
+"""A path that needs shorter steps is lost: with 160 bits such steps are still resolved."""
 _MOST = 1500
 _FAR = 45.0
 """Imaginary part of an angle, and logarithm of the length of a slide, that have gone to infinity."""

@@ -44,7 +44,7 @@ from synth.synthesis.designing.wish_files import read_wishes
 from synth.synthesis.designing.wishes import POSE, PointsOn, Unit, Wishes
 
 STARTS = 8
-"""Of a search, if nobody says: some seconds for a linkage of a few links."""
+"""Starts of a search by default: some seconds for a linkage of a few links."""
 SPREAD = 0.1
 """How far starts are off the mechanism, radians of axes, parts of edges and parameters: other ends of the search, and
 mostly the same assembly mode."""

@@ -22,8 +22,12 @@ from graphs.types import Floats, Ints
 
 Complexes = npt.NDArray[np.complex128]
 
-_FIRST, _LEAST, _MOST = 0.02, 1e-9, 0.1
-"""Steps of the parameter from 1 to 0: at the beginning, where a path is given up, and at most."""
+_FIRST = 0.02
+"""First step of the parameter from 1 to 0: fifty steps are enough for a path that hardly bends."""
+_LEAST = 1e-9
+"""A path that needs shorter steps is given up: its end is singular, or nearly so."""
+_MOST = 0.1
+"""Longest step: longer ones could jump to a neighbouring path."""
 _NEAR, _ALIKE, _ROUNDED = 1e-4, 1e-9, 1e-14
 """A predicted point may be off by the first; Newton's method has to come as near as the second in three corrections,
 and at the end; no correction is less than the third but for rounding. Coordinates are those of unit vectors."""
