@@ -235,7 +235,9 @@ def _centres_of_closed_parts(sc: SCGraph) -> list[int]:
     ]
 
 
-_POINTS, _REMOTE, _SCISSORS = "points on planes or lines", "remote centres", "scissors"
+_POINTS = "points on planes or lines"
+_REMOTE = "remote centres"
+_SCISSORS = "scissors"
 
 
 def _covers(*terms: str) -> Callable[[PolyhedronModel], tuple[bool, str]]:

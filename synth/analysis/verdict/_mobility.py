@@ -114,7 +114,7 @@ def _of_one_motion(configuration: Configuration, generic: int | None) -> Verdict
     """Trace one motion, near the assignment, and return its degrees of freedom at its end."""
     linkage, closure = configuration.linkage, configuration.closure
     joints, misfit = configuration.joints, configuration.misfit
-    if not linkage.loops:
+    if not linkage.loops:  # no equation binds the joints, so all rates together are the one branch there is
         loose = MotionBranch("+" * len(joints), len(joints), "proved", (), 0.0, misfit)
         findings = MotionFindings(configuration, (loose,), loose, len(joints), "proved", True, generic)
         return _worded(findings, "pose", exhaustive=True)

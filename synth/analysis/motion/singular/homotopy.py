@@ -10,6 +10,7 @@ docs/theory/branches.md.
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from itertools import product
 from typing import Any
@@ -28,10 +29,18 @@ _LEAST = 1e-9
 """A path that needs shorter steps is given up: its end is singular, or nearly so."""
 _MOST = 0.1
 """Longest step: longer ones could jump to a neighbouring path."""
-_NEAR, _ALIKE, _ROUNDED = 1e-4, 1e-9, 1e-14
-"""A predicted point may be off by the first; Newton's method has to come as near as the second in three corrections,
-and at the end; no correction is less than the third but for rounding. Coordinates are those of unit vectors."""
-_ROUNDS, _CORRECTIONS, _POLISHED = 4000, 3, 6
+_NEAR = 1e-4
+"""Error that a predicted point may have, of unit vectors: Newton's method squares it in each correction."""
+_ALIKE = 1e-9
+"""Newton's method has to come as near in its corrections, and at the end."""
+_ROUNDED = 1e-14
+"""A smaller correction is rounding."""
+_ROUNDS = 4000
+"""Rounds of steps, all paths at once, after which those that are left count as lost."""
+_CORRECTIONS = 3
+"""Corrections of a predicted point: from `_NEAR` they reach rounding where the step was short enough."""
+_POLISHED = 6
+"""Corrections at the end, where no step waits for them."""
 _ORDER = 5.0
 """The local error of the predictor (Runge and Kutta's) is of this order."""
 
@@ -71,15 +80,15 @@ def followed_to_end(paths: FormPath, points: Complexes) -> PathEnds:
     return PathEnds(points, (times <= 0.0) & (off <= _ALIKE))
 
 
-class FormPath:
+class FormPath(ABC):
     """Quadratic forms that depend on a parameter: what steps along the paths of their common points need."""
 
     count: int
     size: int
 
+    @abstractmethod
     def evaluated(self, points: Complexes, times: Floats) -> tuple[Complexes, Complexes, Complexes]:
         """Return the forms at points, half their slopes, and their derivatives by the parameter."""
-        raise NotImplementedError
 
     def _matrix(self, slopes: Complexes, points: Complexes) -> Complexes:
         return np.concatenate([2.0 * slopes, points.conj()[:, None, :]], axis=1)
