@@ -132,9 +132,9 @@ def staying_flat(sheet: Sheet, may: str | Sequence[int], count: Counter) -> Stay
     --------
     >>> import synth
     >>> from synth.analysis.layering.counting.propagation import counted
-    >>> base = synth.read("data/patterns/bird-base.fold")
-    >>> staying_flat(base, "all", lambda problems: list(map(counted, problems))).creases[:3]
-    (0, 1, 2)
+    >>> vertex = synth.read("data/patterns/four-bar-vertex.fold")
+    >>> staying_flat(vertex, "all", lambda problems: list(map(counted, problems))).creases
+    (0, 1, 2, 3)
     """
     if not sheet.faces:
         raise UnsolvableError("layers need panels, and the pattern has no faces")

@@ -37,7 +37,7 @@ def asked(questions, suffixes, number, seed, folder, data):
 @pytest.mark.parametrize("suffixes", [FORMATS[::2], FORMATS[1::2]], ids=["even", "odd"])
 def test_mutated_files(suffixes, tmp_path, data):
     """The front door: mobility with ranks and pose; of some files ids, reduction, conversion and reading again."""
-    for answered, refused in asked("front", suffixes, 10, 1, tmp_path, data).values():
+    for answered, refused in asked("front", suffixes, 6, 1, tmp_path, data).values():
         assert min(answered, refused) > 0
 
 

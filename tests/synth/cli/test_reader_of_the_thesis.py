@@ -5,6 +5,7 @@ import re
 
 import pytest
 from commands import run
+from sizes import slow
 
 
 def test_defaults_are_printed_and_taken():
@@ -47,7 +48,7 @@ def test_a_conical_row_says_which_links_its_joints_join(tmp_path):
     assert all({joint for joint, *_ in row["joins"]} == set(row["order"]) for row in rows)
 
 
-@pytest.mark.parametrize("placed", [[], ["--slots", 9]])
+@pytest.mark.parametrize("placed", [slow([]), ["--slots", 9]])
 def test_two_commands_lead_from_a_candidate_to_a_linkage_that_moves(placed, tmp_path):
     file, linkage = tmp_path / "watt.jsonl", tmp_path / "watt.json"
     said = run("enumerate", "conical", "--chain", "watt", "--ground", 0, *placed, "-o", file).stdout

@@ -30,6 +30,7 @@ def check_by_walking(six_bar):
         assert Rotation.from_matrix(turned.T @ m[place]).magnitude() < 1e-8
 
 
+@pytest.mark.slow
 def test_a_six_bar_through_the_five_orientations_which_no_four_bar_takes(data):
     five = read_orientations(data / "orientations" / "tipparthi.json")
     assert all(four_bar.defects for four_bar in four_bars(five, dyads_of_five(five).dyads))

@@ -18,6 +18,7 @@ def test_where_branches_meet_their_freedoms_are_known_if_they_are_equal(name, ro
     assert freedoms_at(at.linkage, at.closure, at.linkage.angles) == freedoms
 
 
+@pytest.mark.slow
 def test_a_branch_has_no_more_freedoms_than_there_are_rates_beside_its_own():
     """Traced, it comes to where it meets branches with more; all spaces of rates are known here."""
     file = folder_of_layers() / "grids_124_brown_4x4_A102.fold"
