@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from planar_homotopy import positions_of
-from spherical import FOUR_BAR, STEPHENSON, WATT, spherical
+from spherical import FOUR_BAR, STEPHENSON, WATT, planar, spherical
 
 from enumerate.chains.jobs import chains
 from graphs.errors import UnsolvableError
@@ -25,12 +25,6 @@ from synth.analysis.moving._configuration_of import configuration_of
 slow = pytest.mark.slow
 CASES = Path(__file__).parents[4].parent / "shared" / "cases"
 UP = (0.0, 0.0, 1.0)
-
-
-def planar(graph, random):
-    points = random.normal(size=(len(graph.joints), 2)).tolist()
-    axes = {joint: ((*point, 0.0), UP) for joint, point in zip(graph.joints, points, strict=True)}
-    return configuration_of(HingedSolids(graph, axes)).linkage
 
 
 def bars(points, edges):
