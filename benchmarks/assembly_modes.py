@@ -92,6 +92,28 @@ def agrees(row: dict[str, Any]) -> bool:
     )
 
 
+def says_too_much(row: dict[str, Any]) -> bool:
+    """Whether a list is called complete where the elimination finds more, or no number."""
+    eliminated = row["elimination"]
+    return row["evidence"] != ["None"] and (eliminated is None or eliminated > min(row["complex"]))
+
+
+def written(rows: list[dict[str, Any]]) -> str:
+    """Return the totals and all rows as JSON, a chain in a line."""
+    totals = {
+        "python": platform.python_version(),
+        "chains": len(rows),
+        "seeds": SEEDS,
+        "agree": sum(map(agrees, rows)),
+        "evidence": Counter(" or ".join(row["evidence"]) for row in rows),
+        "exhaustive_where_elimination_finds_more": [row["chain"] for row in rows if says_too_much(row)],
+        "seconds": round(sum(row["seconds"] for row in rows), 1),
+        "seconds_of_elimination": round(sum(row["seconds_of_elimination"] for row in rows), 1),
+    }
+    lines = ",\n  ".join(map(json.dumps, rows))
+    return f'{json.dumps(totals, indent=1)[:-2]},\n "rows": [\n  {lines}\n ]\n}}\n'
+
+
 def main() -> None:
     """Ask all chains, print and write."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -103,24 +125,7 @@ def main() -> None:
         for number in range(given.chains):
             rows.append(row_of(number))
             print(json.dumps(rows[-1]), flush=True)
-            result = {
-                "python": platform.python_version(),
-                "chains": len(rows),
-                "seeds": SEEDS,
-                "agree": sum(map(agrees, rows)),
-                "evidence": Counter(" or ".join(row["evidence"]) for row in rows),
-                "exhaustive_where_elimination_finds_more": [
-                    row["chain"]
-                    for row in rows
-                    if row["evidence"] != ["None"]
-                    and (row["elimination"] is None or row["elimination"] > min(row["complex"]))
-                ],
-                "seconds": round(sum(row["seconds"] for row in rows), 1),
-                "seconds_of_elimination": round(sum(row["seconds_of_elimination"] for row in rows), 1),
-                "disagree": [row for row in rows if not agrees(row)],
-                "rows": rows,
-            }
-            OUT.write_text(json.dumps(result, indent=1) + "\n")
+            OUT.write_text(written(rows))
 
 
 if __name__ == "__main__":

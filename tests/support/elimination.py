@@ -6,12 +6,13 @@ left out keeps a distance (planar) or a scalar product (spherical), the two side
 are polynomials of degree 2 at most in each t. What satisfies all of them in the product of projective lines is a
 position, but where 1 + t² |axis|² = 0 for some t, which is no rotation. Monomials modulo the equations, multiplied by
 enough of these factors, are a space of as many dimensions as there are positions: a difference of two ranks.
-Three plates of which each two share a vertex are first made one, in both ways; the prime is such that these have
-coordinates. Coordinates are read as the fractions that they are in binary.
+Two bars at a vertex of their own are first left out, which have two places each time, and three plates of which each
+two share a vertex made one, in both ways; the prime is such that these have coordinates. Coordinates are read as the fractions that they are in binary.
 """
 
+from collections import Counter
 from fractions import Fraction
-from itertools import combinations, count, product
+from itertools import combinations, product
 
 import networkx as nx
 import numpy as np
@@ -19,8 +20,8 @@ from flint import fmpz, nmod_mat
 
 from graphs.loops.loop import Centre
 
-_MOST = 6000
-"""Monomials, at most: more than isolated positions need."""
+_LEVELS = range(-4, 5)
+"""Degrees in each unknown, less those of all equations together: isolated positions need none beyond the latter."""
 
 
 def primes():
@@ -223,11 +224,25 @@ class NoRootError(Exception):
 def _number(plates, random, prime):
     if len(plates) == 1:
         return 1
+    rest = without_two_bars(plates)
+    if rest is not None:
+        return 2 * _number(rest, random, prime)
     three = three_plates(plates)
     if three is None:
         return _by_elimination(plates, random, prime)
     numbers = [_number(one, random, prime) for one in made_one(plates, *three, prime)]
     return None if None in numbers else sum(numbers)
+
+
+def without_two_bars(plates):
+    """The plates less two bars at a vertex that is in no third one; None without such."""
+    for vertex in set().union(*plates):
+        those = [number for number, plate in enumerate(plates) if vertex in plate]
+        if len(those) == 2 and all(len(plates[number]) == 2 for number in those):
+            rest = [plate for number, plate in enumerate(plates) if number not in those]
+            times = Counter(name for plate in rest for name in plate)
+            return [{name: place for name, place in plate.items() if times[name] > 1} for plate in rest]
+    return None
 
 
 def three_plates(plates):
@@ -254,7 +269,7 @@ def made_one(plates, numbers, corners, prime):
             whole |= {name: carried(start, end, place, prime) for name, place in plate.items() if name not in whole}
         rest = [plate for number, plate in enumerate(plates) if number not in numbers]
         used = set().union(*rest)
-        yield [{name: place for name, place in whole.items() if name in used}, *rest] if rest else [whole]
+        yield [{name: place for name, place in whole.items() if name in used}, *rest]
 
 
 def root(square, prime):
@@ -312,14 +327,13 @@ def _by_elimination(plates, random, prime):
     tree = min(trees(plates), key=lambda tree: tree.size)
     equations, squares = tree.equations(random, prime)
     before = -1
-    for level in count(-4):
+    for level in _LEVELS:
         degrees = np.maximum(tree.degree + level, 1)
-        if np.prod(degrees + 3.0) > _MOST:
-            return None
         here = dimension(equations, squares, degrees, 1, prime)
         if here == before and dimension(equations, squares, degrees - 1, 2, prime) == here:
             return here
         before = here
+    return None
 
 
 def plates_of(linkage, drive, prime):
