@@ -1,12 +1,13 @@
 """Random planar and spherical chains of six and eight links: assembly modes from five seeds, and by elimination.
 
-    python benchmarks/assembly_modes.py [--chains N]
+    python benchmarks/assembly_modes.py [--chains N] [--seeds N] [--trace]
 
 Chain number k is one of the enumerated types, with random dimensions, driven joint and input, drawn with the seed
 [2026, k]; even numbers are planar, every other pair has eight links. `synth.positions` answers from five seeds of its
 own for each chain: the general positions, what became of them, and the real modes are to be the same. The tests'
 elimination modulo a prime (tests/support/elimination.py), which shares no code with it, then says how many positions
-there are, real or not. Prints a line for each chain and writes benchmarks/results/assembly_modes.json.
+there are, real or not. With --trace no theorem says how many there are, so that trace tests have to. Prints a line for
+each chain and writes benchmarks/results/assembly_modes.json, or assembly_modes_trace.json.
 """
 
 from __future__ import annotations
@@ -30,14 +31,14 @@ import numpy as np
 import synth
 from enumerate.chains.jobs import chains
 from graphs.mechanism.sc import SCGraph
+from synth.analysis.assembly import general
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "tests" / "support"))
 
 from elimination import number_of_positions, plates_of
 from spherical import planar, spherical
 
-OUT = Path(__file__).parent / "results" / "assembly_modes.json"
-SEEDS = 5
+RESULTS = Path(__file__).parent / "results"
 
 
 @cache
@@ -46,7 +47,7 @@ def types(links: int) -> list[SCGraph]:
     return [SCGraph(chain.nodes, list(chain.edges())) for chain in chains(links=links, dof=1)]
 
 
-def row_of(number: int) -> dict[str, Any]:
+def row_of(number: int, seeds: int) -> dict[str, Any]:
     """Return what both methods say of a chain, and processor seconds."""
     random = np.random.default_rng([2026, number])
     links, in_the_plane = (6, 8)[number // 2 % 2], number % 2 == 0
@@ -56,8 +57,8 @@ def row_of(number: int) -> dict[str, Any]:
     linkage = (planar if in_the_plane else spherical)(graph, random)
     begun = process_time()
     answers = [
-        synth.positions(linkage, drive={driven: angle}, circuits=False, seed=SEEDS * number + seed)
-        for seed in range(SEEDS)
+        synth.positions(linkage, drive={driven: angle}, circuits=False, seed=seeds * number + seed)
+        for seed in range(seeds)
     ]
     middle = process_time()
     eliminated = number_of_positions(partial(plates_of, linkage, {driven: angle}), random)
@@ -98,12 +99,12 @@ def says_too_much(row: dict[str, Any]) -> bool:
     return row["evidence"] != ["None"] and (eliminated is None or eliminated > min(row["complex"]))
 
 
-def written(rows: list[dict[str, Any]]) -> str:
+def written(rows: list[dict[str, Any]], seeds: int) -> str:
     """Return the totals and all rows as JSON, a chain in a line."""
     totals = {
         "python": platform.python_version(),
         "chains": len(rows),
-        "seeds": SEEDS,
+        "seeds": seeds,
         "agree": sum(map(agrees, rows)),
         "evidence": Counter(" or ".join(row["evidence"]) for row in rows),
         "exhaustive_where_elimination_finds_more": [row["chain"] for row in rows if says_too_much(row)],
@@ -118,14 +119,19 @@ def main() -> None:
     """Ask all chains, print and write."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--chains", type=int, default=500)
+    parser.add_argument("--seeds", type=int, default=5)
+    parser.add_argument("--trace", action="store_true", help="count general positions by trace tests alone")
     given = parser.parse_args()
+    out = RESULTS / ("assembly_modes_trace.json" if given.trace else "assembly_modes.json")
+    if given.trace:
+        general.root_count = lambda family: None
     rows = []
     with tempfile.TemporaryDirectory() as folder:
         os.environ["SYNTHEDRA_CACHE"] = folder
         for number in range(given.chains):
-            rows.append(row_of(number))
+            rows.append(row_of(number, given.seeds))
             print(json.dumps(rows[-1]), flush=True)
-            OUT.write_text(written(rows))
+            out.write_text(written(rows, given.seeds))
 
 
 if __name__ == "__main__":
