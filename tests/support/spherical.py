@@ -1,12 +1,14 @@
-"""Random spherical linkages of given graphs, and their positions by Newton's method from random starts."""
+"""Random spherical and planar linkages of given graphs, and positions by Newton's method from random starts."""
 
 import numpy as np
 
 from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
+from graphs.mechanism.solids import HingedSolids
 from graphs.rank.exact import independent_cycles
 from synth.analysis.motion.closure import ClosureEquations
 from synth.analysis.motion.linkage import linkage_of_axes
+from synth.analysis.moving._configuration_of import configuration_of
 
 FOUR_BAR = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)])
 WATT = SCGraph(6, [(0, 1), (1, 2), (2, 3), (3, 0), (3, 4), (4, 5), (5, 0)])
@@ -20,6 +22,13 @@ def spherical(graph, random):
     axes = random.normal(size=(len(graph.joints), 3))
     places = {joint: ((0.0, 0.0, 0.0), axis.tolist()) for joint, axis in zip(graph.joints, axes, strict=True)}
     return linkage_of_axes(SCGraph(graph.nodes, graph.joints, loops), places)
+
+
+def planar(graph, random):
+    """The graph with random axes across one plane."""
+    points = random.normal(size=(len(graph.joints), 2)).tolist()
+    axes = {joint: ((*point, 0.0), (0.0, 0.0, 1.0)) for joint, point in zip(graph.joints, points, strict=True)}
+    return configuration_of(HingedSolids(graph, axes)).linkage
 
 
 def by_newton(linkage, drive, random, starts):

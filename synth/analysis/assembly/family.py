@@ -150,7 +150,7 @@ def family_of(
     names = list(linkage.graph.joints)
     numbers_in_loops = sorted({joint for loop in linkage.loops for joint in loop.joints})
     joints = tuple(names[joint] for joint in numbers_in_loops)
-    _check_driven(joints, driven, len(joints) - 3 * len(linkage.loops))
+    _check_names(joints, driven)
     axes = _Axes(linkage, tolerances)
     longest = max((len(loop.joints) for loop in linkage.loops), default=0)
     loops = np.full((len(linkage.loops), longest), -1, dtype=np.int64)
@@ -159,6 +159,7 @@ def family_of(
         numbers, senses = axes.of_loop(loop)
         loops[row, : len(numbers)] = numbers
         signs[row, : len(numbers)] = np.multiply(loop.signs, senses)
+    _check_number(driven, len(joints) - 3 * len(linkage.loops))  # a count that holds where no loop is spatial
     column = np.empty(len(joints), dtype=np.int64)
     known = [joints.index(joint) for joint in driven]
     column[known] = -1 - np.arange(len(known))
@@ -195,12 +196,15 @@ def _alike(kinds: Ints, links: Ints, lines: Floats, same: float) -> Ints:
     return alike
 
 
-def _check_driven(joints: Sequence[JointId], driven: Sequence[JointId], freedoms: int) -> None:
+def _check_names(joints: Sequence[JointId], driven: Sequence[JointId]) -> None:
     for number, joint in enumerate(driven):
         if joint not in joints:
             raise InvariantError("joint", f"{shown(joint)} is no joint of a loop", "a joint of a loop")
         if joint in driven[:number]:
             raise InvariantError("joint", f"joint {shown(joint)} is driven twice", "once")
+
+
+def _check_number(driven: Sequence[JointId], freedoms: int) -> None:
     if len(driven) != freedoms:
         raise UnsolvableError(
             f"{numbered(len(driven), 'joint')} driven; expected as many as there are degrees of freedom, "

@@ -1,12 +1,17 @@
-"""How many positions there are: by theorems, by curves of members, by a trace test, and by a homotopy of its own."""
+"""How many positions there are: by theorems, by curves of members, by a trace test, and by two methods of the tests.
+
+These share no code with the first: a homotopy for planar linkages, and elimination modulo a prime.
+"""
 
 import json
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 import pytest
+from elimination import number_of_positions, plates_of, random_plates, residue
 from planar_homotopy import positions_of
-from spherical import FOUR_BAR, STEPHENSON, WATT, spherical
+from spherical import FOUR_BAR, STEPHENSON, WATT, planar, spherical
 
 from enumerate.chains.jobs import chains
 from graphs.errors import UnsolvableError
@@ -25,12 +30,6 @@ from synth.analysis.moving._configuration_of import configuration_of
 slow = pytest.mark.slow
 CASES = Path(__file__).parents[4].parent / "shared" / "cases"
 UP = (0.0, 0.0, 1.0)
-
-
-def planar(graph, random):
-    points = random.normal(size=(len(graph.joints), 2)).tolist()
-    axes = {joint: ((*point, 0.0), UP) for joint, point in zip(graph.joints, points, strict=True)}
-    return configuration_of(HingedSolids(graph, axes)).linkage
 
 
 def bars(points, edges):
@@ -88,6 +87,14 @@ def test_trusses(name):
     assert len(found.positions) % 2 == 0
     if len(links) == 5:
         assert len(positions_of(linkage, {}, random)) == in_the_plane
+        assert number_of_positions(partial(plates_of, linkage, {}), random) == in_the_plane
+
+
+@pytest.mark.parametrize("name", ["5 links", *(pytest.param(name, marks=slow) for name in list(TRUSSES)[1:])])
+def test_trusses_by_elimination(name):
+    links, *numbers = TRUSSES[name]
+    random = np.random.default_rng(len(links))
+    assert [number_of_positions(partial(random_plates, links, n, 1), random) for n in (2, 3)] == numbers
 
 
 def test_prism_and_complete_bipartite_graph():
@@ -98,6 +105,52 @@ def test_prism_and_complete_bipartite_graph():
     assert (other.general, len(other.positions) + other.imaginary, other.evidence) == (16, 16, "proved")
     for answer in (found, other):
         assert len(answer.positions) % 2 == 0
+    linkage = configuration_of(PRISM).linkage
+    assert number_of_positions(partial(plates_of, linkage, {}), np.random.default_rng(1)) == 24
+
+
+@slow
+def test_the_complete_bipartite_graph_by_elimination():
+    linkage = configuration_of(BIPARTITE).linkage
+    assert number_of_positions(partial(plates_of, linkage, {}), np.random.default_rng(1)) == 16
+
+
+@pytest.mark.parametrize(("graph", "path"), [(WATT, ()), (STEPHENSON, (4, 5, 6))], ids=["Watt", "Stephenson"])
+def test_six_bars_by_elimination(graph, path):
+    """With any joint driven: Stephenson's in the path of three has 6 in the plane and 8 on the sphere, others 4."""
+    random = np.random.default_rng(6)
+    for made, in_the_path in ((planar, 6), (spherical, 8)):
+        linkage = made(graph, random)
+        for driver in graph.joints:
+            number = in_the_path if driver in path else 4
+            assert number_of_positions(partial(plates_of, linkage, {driver: 0.2}), random) == number
+            assert root_count(family_of(linkage, [driver])[0]) == number
+
+
+@slow
+def test_eight_bars_by_elimination():
+    """All sixteen, planar and spherical, with each joint driven."""
+    random, numbers = np.random.default_rng(8), set()
+    for chain in chains(links=8, dof=1):
+        graph = SCGraph(chain.nodes, list(chain.edges()))
+        for made in (planar, spherical):
+            linkage = made(graph, random)
+            for driver in graph.joints:
+                bound = root_count(family_of(with_own_joints(linkage, DOUBLE), [driver])[0])
+                assert number_of_positions(partial(plates_of, linkage, {driver: 0.3}), random) == bound
+                numbers.add((made is planar, bound))
+    assert numbers == {(True, n) for n in (8, 12, 14, 16, 18)} | {(False, n) for n in (8, 16, 24, 32)}
+
+
+def test_elimination_says_so_where_positions_are_not_isolated():
+    """A parallelogram with a third bar along two sides moves; without it a four-bar has two positions."""
+    square = {0: (0, 0), 1: (1, 0), 2: (1, 1), 3: (0, 1), 4: (0.5, 0), 5: (0.5, 1)}
+    sides = [(0, 4, 1), (1, 2), (2, 5, 3), (3, 0), (4, 5)]
+
+    def plates(prime):
+        return [{v: tuple(residue(x, prime) for x in square[v]) for v in side} for side in sides]
+
+    assert number_of_positions(plates, np.random.default_rng(2)) is None
 
 
 @pytest.mark.parametrize("seed", range(5))
@@ -153,8 +206,8 @@ def test_a_bar_that_is_needed_gets_no_elbow():
         positions(planar(FOUR_BAR, np.random.default_rng(1)), drive={0: 0.1, 2: 0.1})
 
 
-def check_chain(graph, driver, random, *, in_the_plane):
-    """From five seeds as many as the theorem says; in the plane no more and no fewer by the other homotopy."""
+def check_chain(graph, driver, random, *, in_the_plane, by_homotopy=6):
+    """From five seeds as many as the theorem says; no more and no fewer by elimination, in the plane by a homotopy."""
     linkage = planar(graph, random) if in_the_plane else spherical(graph, random)
     family, _ = family_of(with_own_joints(linkage, DOUBLE), [driver])
     bound = root_count(family)
@@ -162,7 +215,9 @@ def check_chain(graph, driver, random, *, in_the_plane):
     assert {len(general_positions(family, seed).values) for seed in range(5)} == {bound}
     found = positions(linkage, drive={driver: 0.3}, circuits=False)
     assert (found.general, found.lost) == (bound, 0)
-    if in_the_plane:
+    eliminated = number_of_positions(partial(plates_of, linkage, {driver: 0.3}), random)
+    assert eliminated == len(found.positions) + found.imaginary
+    if in_the_plane and len(graph.nodes) <= by_homotopy:
         other = positions_of(linkage, {driver: 0.3}, random)
         real = int((np.abs(np.abs(other) - 1.0).max(axis=1) < 1e-6).sum())
         assert (len(other), real) == (len(found.positions) + found.imaginary, len(found.positions))

@@ -243,6 +243,35 @@ def test_loops_are_judged_by_their_axes():
         positions(skew, drive={0: 0.3})
 
 
+def test_spatial_loops_are_refused_before_freedoms_are_counted():
+    """Seven skew axes have one freedom: three equations for each loop, and M = 4, would be wrong."""
+    random = np.random.default_rng(7)
+    ring = SCGraph(7, [(link, (link + 1) % 7) for link in range(7)])
+    skew = HingedSolids(ring, {j: (tuple(random.normal(size=3)), tuple(random.normal(size=3))) for j in ring.joints})
+    for drive in ({}, {0: 0.3}, dict.fromkeys(range(4), 0.3)):
+        with pytest.raises(UnsolvableError, match="neither meet in a point nor are parallel"):
+            positions(skew, drive=drive)
+
+
+@pytest.mark.parametrize(("across", "number"), [("plane", 6), ("sphere", 8)])
+def test_a_platform_of_solids_on_three_legs(across, number):
+    """Three legs of three revolutes each, the first of each driven: joints of solids in one plane or sphere."""
+    random = np.random.default_rng(3)
+    legs = [(0, 1), (1, 2), (2, 7), (0, 3), (3, 4), (4, 7), (0, 5), (5, 6), (6, 7)]
+    turn, place = np.linalg.qr(random.normal(size=(3, 3)))[0], random.normal(size=3)
+    turn *= np.linalg.det(turn)
+    axes = {}
+    for joint in range(9):
+        x, y, z = random.normal(size=3).tolist()
+        point, axis = ((x, y, 0.0), UP) if across == "plane" else ((0.0, 0.0, 0.0), (x, y, z))
+        axes[joint] = (tuple((turn @ point + place).tolist()), tuple((turn @ axis).tolist()))
+    platform = HingedSolids(SCGraph(8, legs), axes)
+    found = positions(platform, drive={0: 0.1, 3: 0.2, 6: -0.1})
+    assert (found.general, found.evidence, found.to_json()["exhaustive"]) == (number, "proved", "proved")
+    closure = configuration_of(platform).closure
+    assert all(closure.error(mode.angles) < 1e-9 for mode in found.positions)
+
+
 def test_six_bars_in_other_planes():
     """A linkage turned and moved in space has the same positions."""
     random = np.random.default_rng(5)
