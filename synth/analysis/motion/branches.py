@@ -392,8 +392,10 @@ class _BranchSearch:
                 solved.append(points)
         self._all_proved = all(points.evidence == "proved" for points in solved)
         for points in solved:  # last: a point on a larger space is no part of its own
+            before = tuple(parts)  # points of one space are distinct, however near
+            near = DOUBLE.zero_rate if points.evidence == "proved" else _SAME  # a common point of two is singular
             for rates in points.rates:
-                if not any(_is_on(rates, part.space) for part in parts):
+                if not any(_is_on(rates, part.space, near) for part in before):
                     beginning = _Beginning(line_of(rates), rates / np.abs(rates).max(), points.evidence == "proved")
                     parts.append(beginning)
         return [parts[place] for place in canonical_order([_rank_of(part.space, part.rates) for part in parts])]
@@ -523,13 +525,13 @@ class _BranchSearch:
         return moves and alone and branch.freedoms == most_freedoms(branch.space, branch.rates)
 
 
-def _is_on(rates: Floats, space: second_order.RateSpace) -> bool:
+def _is_on(rates: Floats, space: second_order.RateSpace, near: float) -> bool:
     """Tell whether rates, a unit vector, are among those of a space that its equations leave."""
     within = space.basis.T @ rates
-    if np.linalg.norm(rates - space.basis @ within) > _SAME:
+    if np.linalg.norm(rates - space.basis @ within) > near:
         return False
     forms = second_order.local_forms(space.basis, space.left)
-    return bool(np.abs(forms @ within @ within).max(initial=0.0) <= _SAME)
+    return bool(np.abs(forms @ within @ within).max(initial=0.0) <= near)
 
 
 def _rank_of(space: second_order.RateSpace, rates: Floats) -> Floats:
