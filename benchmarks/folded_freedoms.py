@@ -43,9 +43,10 @@ def verdict(python: str, name: str) -> dict[str, Any]:
         _, _, usage = os.wait4(process.pid, 0)
         process.returncode = 0  # it was waited for
     seconds = round(usage.ru_utime + usage.ru_stime, 2)
-    if not text.strip():
+    answers = json.loads(text) if text.strip() else []
+    if not answers:
         return {"seconds": seconds, "refused": True}
-    said = json.loads(text)[0].get("verdict", {})
+    said = answers[0].get("verdict") or {}
     return {"seconds": seconds, **{key: said.get(key) for key in KEYS}}
 
 

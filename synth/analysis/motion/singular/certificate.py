@@ -23,8 +23,8 @@ from graphs.types import Floats
 _WIDER, _WIDENINGS = 8.0, 4
 """The box is so many times as wide as Newton's method would move its middle, and as wide again if that fails."""
 _NEARLY_REAL, _CORRECTIONS = 1e-4, 3
-"""A point whose coordinates are less beside real ones is tried as a real one first: where the forms are badly conditioned
-a path ends that far beside it. It may be another point's box, which is then there twice, and proves nothing."""
+"""A point that is less beside a real one is tried as a real one first, after so many corrections: of forms that are
+badly conditioned a path ends that far off. Where that leads to another point's box this is there twice: no proof."""
 _LEAST_WIDTH = 1e-13
 """Boxes are no smaller: as wide as the rounding of their middles."""
 _INSIDE = 1.0 - 2.0**-30
@@ -80,7 +80,7 @@ class FormBalls:
         others = [place for place in range(self._size) if place != chart]
         for _ in range(_CORRECTIONS):
             slopes = self._forms @ middle.real
-            change = np.linalg.lstsq(2.0 * slopes[:, others], slopes @ middle.real, rcond=None)[0]
+            change = np.linalg.lstsq(2.0 * slopes[:, others], slopes @ middle.real, rcond=DOUBLE.zero)[0]
             middle[others] -= change
         return middle
 

@@ -83,7 +83,7 @@ def count_of_modes(linkage: PosedLinkage) -> ModeCount | None:
     if kinds is None:
         return None
     loose = len(linkage.angles) - len(_loops_of_joints(linkage))  # creases in no loop are free on every branch
-    freedoms = Counter({(own or 0) + loose: number for own, number in kinds.items()})
+    freedoms: Counter[int | None] = Counter({(own or 0) + loose: number for own, number in kinds.items()})
     return ModeCount(freedoms, kinds.total() > 0 and _no_vertex_rests(linkage, modes))
 
 
