@@ -75,6 +75,7 @@ EXEMPT = {
         "_CLOSING",
     ): "regularisation of a step, weight of a held joint, end of an iteration",
     ("synth/analysis/motion/branches.py", "_SAME"): "how well points of multiplicity are known",
+    ("synth/analysis/motion/singular/certificate.py", "_NEARLY_REAL"): "which points are tried as real ones first",
     ("synth/analysis/motion/singular/certificate.py", "_LEAST_WIDTH"): "width of a box, as that of rounding",
     ("synth/analysis/motion/singular/elimination.py", "_NEARLY_REAL"): "which eigenvalues are tried as real",
     ("synth/analysis/motion/singular/elimination.py", "_SAME"): "how well points of multiplicity are known",

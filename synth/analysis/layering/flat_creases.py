@@ -132,9 +132,11 @@ def staying_flat(sheet: Sheet, may: str | Sequence[int], count: Counter) -> Stay
     --------
     >>> import synth
     >>> from synth.analysis.layering.counting.propagation import counted
-    >>> vertex = synth.read("data/patterns/four-bar-vertex.fold")
-    >>> staying_flat(vertex, "all", lambda problems: list(map(counted, problems))).creases
-    (0, 1, 2, 3)
+    >>> from graphs.mechanism.sheet import Sheet
+    >>> corners = tuple((float(x), float(y)) for y in (0, 1) for x in range(4))
+    >>> strip = Sheet(8, (), "", ((0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6)), corners)
+    >>> len(staying_flat(strip, "unassigned", lambda problems: list(map(counted, problems))).creases)
+    2
     """
     if not sheet.faces:
         raise UnsolvableError("layers need panels, and the pattern has no faces")

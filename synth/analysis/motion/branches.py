@@ -32,6 +32,7 @@ from synth.analysis.motion.singular.monodromy import is_irreducible
 from synth.analysis.motion.singular.motion_near_rates import spaces_near
 from synth.analysis.motion.singular.sampling import (
     TracedBranch,
+    finite_rates,
     followed,
     general_rates,
     in_half_tangents,
@@ -391,8 +392,10 @@ class _BranchSearch:
                 solved.append(points)
         self._all_proved = all(points.evidence == "proved" for points in solved)
         for points in solved:  # last: a point on a larger space is no part of its own
+            before = tuple(parts)  # points of one space are distinct, however near
+            near = DOUBLE.zero_rate if points.evidence == "proved" else _SAME  # a common point of two is singular
             for rates in points.rates:
-                if not any(_is_on(rates, part.space) for part in parts):
+                if not any(_is_on(rates, part.space, near) for part in before):
                     beginning = _Beginning(line_of(rates), rates / np.abs(rates).max(), points.evidence == "proved")
                     parts.append(beginning)
         return [parts[place] for place in canonical_order([_rank_of(part.space, part.rates) for part in parts])]
@@ -489,15 +492,28 @@ class _BranchSearch:
             end = followed(self.linkage, self.closure, rates, immobile, self._allowance, counted=counted)
         certainty: Certainty = "numerical" if end.far else "not known"
         freedoms = beside or end.freedoms if end.far else None
-        if freedoms is not None and self.all_spaces and freedoms > most_freedoms(space, rates):
-            freedoms = None  # where it was traced to it meets a branch with more; no larger space has its rates
+        component = part.component
+        if freedoms is not None and freedoms > most_freedoms(space, rates):
+            if self.all_spaces:
+                freedoms = None  # where it was traced to it meets a branch with more; no larger space has its rates
+            else:  # part of a larger branch, whose own space the search did not come to
+                immobile = self._immobile_at(end.sample, immobile)
+                component = -freedoms
         if linear or proved:
             freedoms, certainty = space.basis.shape[1] - len(space.left), "proved"
         elif part.certified and beside == 1:
             freedoms, certainty = 1, "proved"
         modes, begun = self.vertices.modes(rates), not late or certainty == "proved"
-        followed_to = (end.sample, end.error, end.far, begun, part.component)
+        followed_to = (end.sample, end.error, end.far, begun, component)
         return Branch(freedoms, certainty, space, rates, immobile, modes, *followed_to)
+
+    def _immobile_at(self, sample: Floats, immobile: tuple[int, ...]) -> tuple[int, ...]:
+        """Return those of the joints that do not begin to move, at a configuration on a branch, either."""
+        _, rates = finite_rates(self.linkage, self.closure, sample)
+        if rates is None:
+            return immobile
+        at_rest = np.abs(rates).max(axis=1, initial=0.0) <= DOUBLE.zero_rate
+        return tuple(place for place in immobile if at_rest[place])
 
     def is_whole(self, branch: Branch) -> bool:
         """Tell whether a branch has all rates that second order leaves where it begins, and is alone there.
@@ -509,13 +525,13 @@ class _BranchSearch:
         return moves and alone and branch.freedoms == most_freedoms(branch.space, branch.rates)
 
 
-def _is_on(rates: Floats, space: second_order.RateSpace) -> bool:
+def _is_on(rates: Floats, space: second_order.RateSpace, near: float) -> bool:
     """Tell whether rates, a unit vector, are among those of a space that its equations leave."""
     within = space.basis.T @ rates
-    if np.linalg.norm(rates - space.basis @ within) > _SAME:
+    if np.linalg.norm(rates - space.basis @ within) > near:
         return False
     forms = second_order.local_forms(space.basis, space.left)
-    return bool(np.abs(forms @ within @ within).max(initial=0.0) <= _SAME)
+    return bool(np.abs(forms @ within @ within).max(initial=0.0) <= near)
 
 
 def _rank_of(space: second_order.RateSpace, rates: Floats) -> Floats:

@@ -66,7 +66,8 @@ class Branch:
         Whether it was followed, or proved; False if the search had nothing left for it.
     component : int or None
         Of equations that leave one space of rates with more than points: the number of that space. Ways to begin
-        with one number, such as with vertices popped up or down, are counted as one branch.
+        with one number, such as with vertices popped up or down, are counted as one branch. Negative where it has
+        more freedoms than its space allows, as part of a larger branch; all such with as many may be the same.
 
     Examples
     --------
@@ -230,7 +231,9 @@ class Branches:
             known = [branch for branch in self.branches if branch.certainty != "not known"]
             alone = Counter(branch.freedoms for branch in known if branch.component is None)
             together = {branch.component: branch.freedoms for branch in known if branch.component is not None}
-            return alone + Counter(together.values())
+            whole = alone + Counter(freedoms for component, freedoms in together.items() if component >= 0)
+            parts = {freedoms for component, freedoms in together.items() if component < 0}
+            return whole + Counter(parts - whole.keys())
         total: Counter[int | None] = Counter({0: 1})
         for part in self.parts:
             sums: Counter[int | None] = Counter()

@@ -80,7 +80,11 @@ def count_of_modes(linkage: PosedLinkage) -> ModeCount | None:
     if not modes:
         return None
     kinds = _transferred(linkage, dict(enumerate(modes)))
-    return None if kinds is None else ModeCount(kinds, kinds.total() > 0 and _no_vertex_rests(linkage, modes))
+    if kinds is None:
+        return None
+    loose = len(linkage.angles) - len(_loops_of_joints(linkage))  # creases in no loop are free on every branch
+    freedoms: Counter[int | None] = Counter({(own or 0) + loose: number for own, number in kinds.items()})
+    return ModeCount(freedoms, kinds.total() > 0 and _no_vertex_rests(linkage, modes))
 
 
 _State = tuple[tuple[int, ...], tuple[tuple[int, float], ...]]

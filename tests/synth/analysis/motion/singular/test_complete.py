@@ -51,6 +51,13 @@ def test_large_triangulated_squares(inner):
         assert (branches.count, branches.proved) == (2**free, True)
 
 
+def test_branches_that_begin_nearly_alike_in_two_spaces_of_rates_are_two():
+    """Three of 200 squares have such; these rates differ by less than what tells points of multiplicity apart."""
+    [(sheet, _)] = squares(7, [11])
+    branches = branches_from_flat(sheet)
+    assert (branches.count, branches.proved) == (2 ** len(free_vertices(sheet)), True)
+
+
 @pytest.mark.parametrize(
     ("name", "count"), [("triangles-4-a.fold", 16), ("triangles-4-b.fold", 16), ("triangles-5.fold", 32)]
 )
