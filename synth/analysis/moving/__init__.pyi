@@ -1,8 +1,8 @@
 from synth.analysis.motion.path import circuit_through as circuit_through
 from synth.analysis.moving._configuration_of import (
     configuration_of as configuration_of,
+    linkage_of_closed_form as linkage_of_closed_form,
     linkage_of_rods as linkage_of_rods,
-    linkage_of_surface as linkage_of_surface,
 )
 from synth.analysis.moving.motion import (
     FileConfigurations as FileConfigurations,

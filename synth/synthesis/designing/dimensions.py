@@ -34,7 +34,7 @@ from graphs.types import Floats, Ints, JointId, LinkId
 from synth.analysis.folding.derivatives import dependence_on_vertices, largest_panel
 from synth.analysis.motion.derivatives import AxisDependence, dependence_on_axes, derivatives_by_parameters
 from synth.analysis.motion.linkage import Linkage, linkage_of_axes, linkage_of_sheet
-from synth.analysis.moving._configuration_of import Movable, configuration_of, linkage_of_surface, sheet_of
+from synth.analysis.moving._configuration_of import Movable, configuration_of, linkage_of_closed_form, sheet_of
 from synth.catalogue.patterns.generator import Generator
 from synth.linkages.conformed.linkage_behaviour import OnSurface, linkage_on_surfaces
 from synth.synthesis.designing.quadrilaterals import IMAGINARY, QuadrilateralSides, marched, miura_sides, sheet_of_sides
@@ -393,7 +393,7 @@ class ConeDimensions:
 
     def __init__(self, linkage: OnSurface, fixed: Collection[str] = ()) -> None:
         assert isinstance(linkage.surface, Cone)
-        self._first = linkage_of_surface(linkage)
+        self._first = linkage_of_closed_form(linkage)
         self.chain = self._first.graph
         self._arcs = linkage
         self.ground = self.chain.ground if self.chain.ground is not None else next(iter(self.chain.nodes))

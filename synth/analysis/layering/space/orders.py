@@ -16,7 +16,7 @@ from graphs.printing import Block, TableBlock
 from graphs.types import Ints
 from synth.analysis.layering.constraints import FALSE, TRUE, layer_constraints
 from synth.analysis.layering.cores import core_lines, core_of
-from synth.analysis.layering.counting.job import Counter
+from synth.analysis.layering.counting.problem import Counter
 from synth.analysis.layering.local import FlatVertex
 from synth.analysis.layering.orders import CONTRADICTION, FlatFolding, components_of
 from synth.analysis.layering.reduction import reduced

@@ -15,7 +15,6 @@ from math import pi
 import networkx as nx
 import numpy as np
 import shapely
-from scipy.spatial import cKDTree
 
 from graphs.convert.duality import SheetMechanism
 from graphs.geometry import frame_about, unit
@@ -169,6 +168,8 @@ class _Plates:
         """Return the plates whose plane is nearly that of another: those that are looked at more closely."""
         if len(plates) < 2:
             return plates
+        from scipy.spatial import cKDTree  # not at the head: a question about one vertex would wait for it
+
         first = [self.faces_of_plate[plate][0] for plate in plates]
         normals = self.normals[first]
         corners = np.array([self.sheet.faces[face][0] for face in first])

@@ -16,7 +16,7 @@ from graphs.errors import InvariantError, UnsolvableError
 from graphs.files.formats import read, write
 from graphs.mechanism.sheet import Sheet, with_all_edges
 from synth.catalogue.patterns._generate import generate
-from synth.making.templates.solids import SheetPlates, fitted_size, plates_in_space, frames_of, write_solids
+from synth.making.templates.solids import SheetPlates, fitted_size, frames_of, plates_in_space, write_solids
 
 FOLDED = {"miura": 1.0, "box-pop-up": 1.0, "miura-tube": None, "kresling": None, "square-twist": 0.5, "slit-array": 0.4}
 QUICK = ("miura", "box-pop-up")
