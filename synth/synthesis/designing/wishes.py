@@ -416,7 +416,7 @@ class PointDistance(GoalWish):
     Examples
     --------
     >>> print(PointDistance(points=(DesignPoint(vertex=0), DesignPoint(vertex=4)), goal=Goal(equals=1.0)))
-    distance of vertex 0 and vertex 4 at configuration
+    distance of vertex 0 and vertex 4 at pose
     """
 
     points: tuple[DesignPoint, DesignPoint]

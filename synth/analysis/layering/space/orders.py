@@ -121,7 +121,7 @@ def layers_in_space(state: FoldedState, count: Counter, above: Sequence[Height] 
     >>> import synth.analysis.moving
     >>> from synth.analysis.layering.counting.propagation import counted
     >>> at = synth.analysis.moving.configuration_of(synth.read("data/patterns/bird-base.fold"))
-    >>> layers_in_space(at.state(), lambda problems: list(map(counted, problems)))
+    >>> layers_in_space(at.folded_state(), lambda problems: list(map(counted, problems)))
     <LayersInSpace: 1 layer order>
     """
     stacked = stacked_panels(state)
