@@ -36,7 +36,7 @@ from synth.analysis.moving._configuration_of import configuration_of
 from synth.catalogue.patterns.panels import sheet_of_faces
 from synth.synthesis.designing import EdgeLengths, Goal, JointAngle, PointsOn, WishedConfiguration, Wishes
 from synth.synthesis.designing.designs import DesignSearch
-from synth.synthesis.designing.poses import DesignPoint
+from synth.synthesis.designing.placement import DesignPoint
 from synth.synthesis.designing.targets import Formula, Mesh
 
 SAMPLES = 10_000

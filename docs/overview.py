@@ -12,7 +12,7 @@ import numpy as np
 import synth
 from synth.making.drawing.scene.shapes import Label, Layer, moved
 from synth.making.drawing.scene.writing import Scene
-from synth.making.drawing.space.poses import pose_scenes
+from synth.making.drawing.space.motion_files import frame_scenes
 
 PLACE = Path(__file__).resolve().parent / "pictures" / "overview.svg"
 POSES = (2, 6, 10, 14)
@@ -25,7 +25,7 @@ def main() -> None:
     sheet = made.mechanism
     folding = synth.fold(sheet, frames=16)
     pattern = synth.draw(sheet, numbers=False, box=(190.0, 190.0), caption=None)
-    poses = list(pose_scenes(sheet, folding.places[np.array(POSES)], SIZE))
+    poses = list(frame_scenes(sheet, folding.places[np.array(POSES)], SIZE))
     high = max(pattern.height, SIZE)
     verdict = synth.mobility(sheet).verdict
     assert verdict is not None

@@ -47,10 +47,10 @@ class Placed:
         return made if self.then is None else self.then(made)
 
 
-_SCENES, _SOLIDS, _POSES = (
+_SCENES, _SOLIDS, _MOTIONS = (
     "synth.making.drawing.scene.writing",
     "synth.making.templates.solids",
-    "synth.making.drawing.space.poses",
+    "synth.making.drawing.space.motion_files",
 )
 _SIMULATION, _FLAT_FOLDED = "synth.making.simulation", "synth.making.drawing.mechanisms.flat_folded"
 
@@ -79,9 +79,9 @@ def _table(suffix: str, name: str, needs: str = "") -> Format[Any]:
 
 
 _PICTURES_OF_MOTIONS = (
-    Format(".gif", "GIF", Placed(f"{_POSES}:gif_bytes"), needs="matplotlib.font_manager"),
-    _drawn(_PNG, f"{_POSES}:strip_pages"),
-    _drawn(_SVG, f"{_POSES}:strip_pages"),
+    Format(".gif", "GIF", Placed(f"{_MOTIONS}:gif_bytes"), needs="matplotlib.font_manager"),
+    _drawn(_PNG, f"{_MOTIONS}:strip_pages"),
+    _drawn(_SVG, f"{_MOTIONS}:strip_pages"),
 )
 
 EXPORTERS: Mapping[Exported, Formats[Any]] = {
@@ -95,8 +95,8 @@ EXPORTERS: Mapping[Exported, Formats[Any]] = {
     ),
     "pictures of motions": formats_by_suffix(*_PICTURES_OF_MOTIONS),
     "motions": formats_by_suffix(
-        Format(".fold", "FOLD", Placed(f"{_POSES}:fold_bytes")),
-        Format(".obj", "OBJ, a file for each pose", Placed(f"{_POSES}:obj_bytes")),
+        Format(".fold", "FOLD", Placed(f"{_MOTIONS}:fold_bytes")),
+        Format(".obj", "OBJ, a file for each pose", Placed(f"{_MOTIONS}:obj_bytes")),
         *_PICTURES_OF_MOTIONS,
     ),
     "layer orders": formats_by_suffix(

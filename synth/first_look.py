@@ -7,7 +7,7 @@ from shlex import quote
 from typing import Any, TypeAlias
 
 from enumerate.chains.names import name_of
-from graphs.answer.mechanisms import sheet_in_frame
+from graphs.answer.mobility import sheet_in_frame
 from graphs.convert.conversions import Mechanism, kind_in_words, to_sc
 from graphs.errors import numbered
 from graphs.files.mechanism_like import MechanismLike, mechanism_for
@@ -212,7 +212,7 @@ def _questions(mechanism: Mechanism, answer: JudgedMobility) -> list[Question]:
         return _of_surface(mechanism)
     if isinstance(mechanism, PolyhedronModel):
         return [("synth mobility FILE --verbose", "the evidence: ranks, and every equation of mobility")]
-    if answer.configuration is None and answer.pose is None:
+    if answer.configuration is None and answer.infinitesimal is None:
         realised = "realised.fold"
         return [
             (f"synth realise FILE -o {realised}", "a sheet or panels of this type"),

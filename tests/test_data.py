@@ -16,7 +16,7 @@ from graphs.files.formats import read
 from graphs.identity.chains import chain_id
 from graphs.identity.drawings import map_id
 from graphs.mechanism.scd import SCDGraph
-from graphs.rank.pose import pose_mobility
+from graphs.rank.infinitesimal import infinitesimal_mobility
 
 ROOT = Path(__file__).resolve().parent.parent
 
@@ -70,7 +70,7 @@ def test_realised_mechanisms_keep_their_type_and_the_numbers_of_their_paper(ever
             assert map_id(given) == row["drawing"]
         assert chain_id(to_sc(sheet)) == chain_id(to_sc(given))
         assert mobility_report(to_scd(sheet)).mobility == row["mobility"] == of_paper[row["of"]], row["file"]
-        assert pose_mobility(sheet).dof == row["freedoms"]
+        assert infinitesimal_mobility(sheet).dof == row["freedoms"]
         assert set(sheet.assignments) <= ({*"UB"} if row["folds"] is False else {*"MVB"})
 
 

@@ -203,7 +203,7 @@ def test_html_escapes_names():
 def test_exact_and_pose_are_objects(data):
     answer = synth.mobility(synth.read(data / "patterns" / "bird-base.fold"))
     assert answer.exact.mobility == answer.mobility == 5
-    assert (answer.pose.dof, answer.overconstraint) == (10, 5)
+    assert (answer.infinitesimal.dof, answer.overconstraint) == (10, 5)
     assert synth.mobility(FOUR_BAR, exact=False).exact is None
 
 
@@ -211,7 +211,7 @@ def test_any_mechanism_has_an_answer(data):
     assert synth.mobility(nx.cycle_graph(5)).mobility == 2
     assert synth.mobility(nx.cycle_graph(5)).warnings[0].startswith("a link-joint graph without centres")
     conical = synth.mobility(synth.read(data / "surfaces" / "fig11-stephenson.json"))
-    assert (conical.mobility, conical.pose.dof, conical.pose.flat) == (1, 1, False)
+    assert (conical.mobility, conical.infinitesimal.dof, conical.infinitesimal.flat) == (1, 1, False)
     with_angles = synth.read(data / "hyatt" / "spherical-four-bar.json")
     assert synth.mobility(with_angles).mobility == 1
 

@@ -41,7 +41,7 @@ EXEMPT = {
     ("graphs/joints/revolutes.py", "_FLAT"): "how clear a spherical joint must be",
     ("graphs/mechanism/sheet.py", "COLLINEAR"): "snapping distance of drawings, the finest that is tried",
     ("graphs/rank/dissection.py", "_CHECKED"): "range in which a second count is made",
-    ("graphs/rank/pose.py", "_SPREAD"): "how far off a plane is nearly flat",
+    ("graphs/rank/infinitesimal.py", "_SPREAD"): "how far off a plane is nearly flat",
     ("synth/analysis/assembly/ends.py", "_LEVENBERG"): "regularisation of steps",
     ("synth/synthesis/atlas/signatures.py", "_SHORTEST"): "motion that is too short for a signature",
     ("synth/synthesis/atlas/axis_fit.py", "_FITTING"): "step of differences, end of an iteration",

@@ -36,7 +36,7 @@ from synth.making.drawing.scene.shapes import (
     Shape,
     colour_of_class,
 )
-from synth.making.drawing.space.poses import pose_scenes
+from synth.making.drawing.space.motion_files import frame_scenes
 
 __all__ = ["DRAWINGS"]
 
@@ -80,9 +80,9 @@ def compliance() -> Scene:
     rest = equilibrium(elastic)
     start = rest.angles
     path = load_path(elastic, start, 0, start[0] + np.linspace(0.0, 2.0 * np.pi, 61)[1:])
-    turned = np.degrees(np.array([pose.angles[path.driver] for pose in path.poses]) - start[0])
-    moments = np.array([float(pose.held[0]) for pose in path.poses])
-    energies = np.array([pose.energy for pose in path.poses])
+    turned = np.degrees(np.array([one.angles[path.driver] for one in path.equilibria]) - start[0])
+    moments = np.array([float(one.held[0]) for one in path.equilibria])
+    energies = np.array([one.energy for one in path.equilibria])
     balanced = [(0.0, rest.stable), *_balances(turned, moments)]
     energy = _curve(
         turned, energies, "energy", [(at, float(np.interp(at, turned, energies)), ok) for at, ok in balanced]
@@ -117,7 +117,7 @@ def activating_constraints() -> Scene:
     """A cylinder with ride-alongs on its creases, opened until they are straight."""
     cylinders = [generated_sheet("deployable-cylinder", short=radians(short)) for short in (35.0, 15.0, 1.0)]
     places = np.array([cylinder.coordinates for cylinder in cylinders])
-    poses = pose_scenes(cylinders[0], places, 140.0)
+    poses = frame_scenes(cylinders[0], places, 140.0)
     words = (f"{degrees(_least_left(cylinder)):.0f}° left" for cylinder in cylinders)
     row = beside(*map(said, poses, words), gap=6.0)
     return said(row, "the triangles on the creases are ride-alongs; once they are straight, no crease can open farther")

@@ -20,7 +20,7 @@ from graphs.mechanism.estimate import Corners, estimate_of, nearly_exact
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet
 from graphs.rank.exact import diagnose
-from graphs.rank.pose import PoseMobility, closure_at_pose, pose_mobility
+from graphs.rank.infinitesimal import InfinitesimalMobility, closure_at_configuration, infinitesimal_mobility
 from graphs.types import Floats
 from synth.making.drawing import Scene
 from synth.making.drawing.scene.frame import Plot, signed
@@ -119,9 +119,9 @@ def pose() -> Scene:
     """Singular values of a folded sheet whose coordinates are rounded: the gap between equations and noise."""
     sheet = generated_sheet("miura", rows=4, columns=4, fold=1.2)
     rounded = with_places(sheet, np.array(sheet.coordinates).round(5))
-    found = pose_mobility(rounded)
+    found = infinitesimal_mobility(rounded)
     assert found.dof is not None
-    values = np.linalg.svd(closure_at_pose(rounded, mechanism_of_sheet(rounded)).toarray(), compute_uv=False)
+    values = np.linalg.svd(closure_at_configuration(rounded, mechanism_of_sheet(rounded)).toarray(), compute_uv=False)
     picture = _singular_values(values / values[0], found)
     return beside(
         said(
@@ -162,7 +162,7 @@ def precision() -> Scene:
     )
 
 
-def _singular_values(values: Floats, found: PoseMobility) -> Scene:
+def _singular_values(values: Floats, found: InfinitesimalMobility) -> Scene:
     """Return singular values, on a scale of powers of ten, with what noise may come to."""
     plot = Plot(40.0, 22.0, 220.0, 150.0, (0.0, len(values) + 1.0), (-8.0, 0.0))
     lowest, noise = plot.y[0], float(np.log10(found.spectrum.noise))

@@ -44,8 +44,8 @@ from synth.making.drawing.scene.shapes import (
     Shape,
     colour_of_class,
 )
+from synth.making.drawing.space.motion_files import frame_scenes
 from synth.making.drawing.space.panels import bodies_of, places_of_hinges
-from synth.making.drawing.space.poses import pose_scenes
 
 __all__ = ["DRAWINGS"]
 
@@ -82,7 +82,7 @@ def branches() -> Scene:
 def _branch(sheet: Sheet, number: int, freedoms: int | None) -> Scene:
     """Return a pattern by what its creases do on one branch, above a pose on it."""
     followed = synth.fold(sheet, branch=number, frames=6)
-    _, pose = pose_scenes(_lettered(sheet, followed, _POSE), followed.places[[0, _POSE]], 108.0)
+    _, pose = frame_scenes(_lettered(sheet, followed, _POSE), followed.places[[0, _POSE]], 108.0)
     pattern = Patterned(sheet, 108.0).scene(colour="branch", branch=number)
     assert freedoms is not None
     return said(above(pattern, pose, gap=0.0), f"way {number}: {numbered(freedoms, 'freedom')}")
@@ -102,7 +102,7 @@ def moving() -> Scene:
     circuit = circuit_through(ClosureEquations(linkage), linkage.angles).angles
     poses = circuit[[round(eighth * (len(circuit) - 1) / 8) for eighth in range(4)]]
     panels, _ = bodies_of(linkage)
-    scenes = pose_scenes(panels, _steadied(places_of_hinges(linkage, poses)), 114.0)
+    scenes = frame_scenes(panels, _steadied(places_of_hinges(linkage, poses)), 114.0)
     words = (f"{signed(round(degrees(angle)))}°" for angle in poses[:, 0])
     row = beside(*map(said, scenes, words), gap=0.0)
     return said(row, "six solids in a ring of six hinges (orange), by the turn of one hinge")
@@ -199,7 +199,7 @@ def mending() -> Scene:
     found = configuration_of_sheet(rounded)
     assert found.branches is not None
     (repair,) = found.repairs
-    _, pose = pose_scenes(found.sheet, synth.fold(found.sheet, frames=6).places[[0, 3]], 120.0)
+    _, pose = frame_scenes(found.sheet, synth.fold(found.sheet, frames=6).places[[0, 3]], 120.0)
     return beside(
         said(
             _looking_like(_enlarged(rounded, found.sheet), Line([], "grey", NORMAL, DOTTED)),
@@ -251,7 +251,7 @@ def derivatives() -> Scene:
         tip = (x + right, y - up)
         if max(abs(right), abs(up)) > 1.0:
             shapes += [Line([(x, y), tip], "class1", STRONG), head((x, y), tip, "class1")]
-    _, pose = pose_scenes(_lettered(sheet, followed, _HALF_FOLDED), followed.places[[0, _HALF_FOLDED]], 150.0)
+    _, pose = frame_scenes(_lettered(sheet, followed, _HALF_FOLDED), followed.places[[0, _HALF_FOLDED]], 150.0)
     flat = [pattern.places[end] for end in ends]
     spots: list[Shape] = [Disc(place, 3.0) for place in flat]
     return beside(

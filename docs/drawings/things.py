@@ -20,7 +20,7 @@ from synth.making.drawing import Scene
 from synth.making.drawing.mechanisms.creases import places_on_page
 from synth.making.drawing.scene.frame import signed
 from synth.making.drawing.scene.shapes import FINE, NORMAL, STRONG, Disc, Label, Layer, Line, Point, Shape
-from synth.making.drawing.space.poses import pose_scenes
+from synth.making.drawing.space.motion_files import frame_scenes
 from synth.making.templates.pieces import Kind, Piece
 from synth.making.templates.template import template_of
 
@@ -180,7 +180,7 @@ def viewer() -> Scene:
     folding = synth.fold(synth.generate("miura").mechanism, frames=4)
     [(joint, goal)] = folding.driven.items()
     angles = folding.path.angles[:, folding.joints.index(joint)].tolist()
-    poses = [cropped(thinned(scene)) for scene in pose_scenes(folding.configuration.sheet, folding.places, 104.0)]
+    poses = [cropped(thinned(scene)) for scene in frame_scenes(folding.configuration.sheet, folding.places, 104.0)]
     high = max(pose.height for pose in poses)
     columns = [
         above(_slider(angle / goal, f"{signed(round(degrees(angle)))}°"), on_air(pose, 92.0, high), gap=4.0)

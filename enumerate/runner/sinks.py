@@ -14,14 +14,9 @@ from typing import Any, Generic, TypeVar
 
 from enumerate.runner.job import Column, Job, ListColumn, Row, Sink, Unit, row_as_dict, stored
 from enumerate.runner.store import SqliteSink, read_rows
-from graphs.convert.link_joint import sc_from_link_joint_graph
 from graphs.errors import FileError, InvariantError, StoreError, shown
 from graphs.files.atomic import Beside, FolderBeside, remove_left
-from graphs.files.native import dumps
 from graphs.files.outputs import unknown_extension
-from graphs.identity.chains import chain_from_id
-from graphs.identity.drawings import mechanism_from_map_id
-from graphs.mechanism.sc import SCGraph
 from graphs.printing import plain
 
 B = TypeVar("B", Beside, FolderBeside)
@@ -336,6 +331,13 @@ def mechanism_text(row: Mapping[str, Any]) -> str:
     """
     if "mechanism" in row:
         return str(row["mechanism"])
+    # Not at the head: what only counts, or lists ids, makes no mechanism.
+    from graphs.convert.link_joint import sc_from_link_joint_graph
+    from graphs.files.native import dumps
+    from graphs.identity.chains import chain_from_id
+    from graphs.identity.drawings import mechanism_from_map_id
+    from graphs.mechanism.sc import SCGraph
+
     code = row["code"]
     if code.startswith("m1:"):
         return dumps(mechanism_from_map_id(code))

@@ -1,6 +1,6 @@
 """Answers for any mechanism: mobility (counts, exact rank, degrees of freedom at a configuration), ids, models.
 
-`mobility` takes any mechanism and gives one object, which prints as the command line does.
+`counts_and_ranks` takes any mechanism and gives one object, which prints as the command line does.
 """
 
 from graphs.lazy import offered

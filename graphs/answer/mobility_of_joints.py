@@ -12,7 +12,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from graphs.answer.report import MobilityAnswer, notes_of_pose
+from graphs.answer.report import MobilityAnswer, notes_on_singular_values
 from graphs.count.applicability import EquationResult
 from graphs.count.equations import loop_form, modified_cgk, traditional_cgk
 from graphs.count.report import MobilityReport, mobility_report
@@ -28,7 +28,7 @@ from graphs.mechanism.precision import extent_of, precision_of_axes
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.solids import HingedSolids
 from graphs.rank.exact import independent_cycles
-from graphs.rank.pose import pose_mobility_of_axes
+from graphs.rank.infinitesimal import infinitesimal_mobility_of_axes
 from graphs.rank.singular_values import spectrum
 from graphs.tolerances import DOUBLE, Tolerances
 from graphs.types import Floats, JointId
@@ -118,7 +118,7 @@ def mobility_of_jointed(linkage: JointedLinkage) -> MobilityAnswer:
     """
     whole = placed(linkage)
     solids = revolutes_of(whole)
-    pose = pose_mobility_of_axes(solids.chain, solids.axes)
+    infinitesimal = infinitesimal_mobility_of_axes(solids.chain, solids.axes)
     counted = with_planar_loops(linkage)
     report = report_of_joints(counted)
     passive = passive_freedoms(whole)
@@ -129,9 +129,9 @@ def mobility_of_jointed(linkage: JointedLinkage) -> MobilityAnswer:
     notes += _if_planar(linkage)
     general: dict[str, int] = {}
     if not linkage.places:
-        general = {} if pose.dof is None else {"general_member": pose.dof}
-        freedom = numbered(pose.dof or 0, "degree of freedom", "degrees of freedom")
-        known = "degrees of freedom are unknown" if pose.dof is None else f"result is {freedom}"
+        general = {} if infinitesimal.dof is None else {"general_member": infinitesimal.dof}
+        freedom = numbered(infinitesimal.dof or 0, "degree of freedom", "degrees of freedom")
+        known = "degrees of freedom are unknown" if infinitesimal.dof is None else f"result is {freedom}"
         notes.append(f"a type without places: for a generic realisation, placed at random, the {known}")
     notes += _passive_notes(passive)
     counts = {
@@ -141,7 +141,9 @@ def mobility_of_jointed(linkage: JointedLinkage) -> MobilityAnswer:
         **general,
     }
     answer = replace(MobilityAnswer.of(report), counts=counts, warnings=tuple(notes))
-    return replace(answer, pose=pose).with_notes(warnings=notes_of_pose(pose)) if linkage.places else answer
+    if not linkage.places:
+        return answer
+    return replace(answer, infinitesimal=infinitesimal).with_notes(warnings=notes_on_singular_values(infinitesimal))
 
 
 def _if_planar(linkage: JointedLinkage) -> Iterator[str]:

@@ -13,7 +13,7 @@ from graphs.mechanism.sc import ARRANGEMENTS, CENTRES_ASSUMED
 from graphs.mechanism.sheet import Reading
 from graphs.printing import Block, Printed, TableBlock, html_of, plain
 from graphs.rank.exact import ExactMobility
-from graphs.rank.pose import PoseMobility
+from graphs.rank.infinitesimal import InfinitesimalMobility
 from graphs.tolerances import DOUBLE
 
 _COUNTS = {
@@ -50,7 +50,7 @@ class MobilityAnswer(MobilityReport, Printed):
     exact : ExactMobility or None
         The generic mobility by rank, with its primes; None if it was left out or could not be found (a warning
         says why).
-    pose : PoseMobility or None
+    infinitesimal : InfinitesimalMobility or None
         The infinitesimal degrees of freedom at the coordinates, with the gap of the singular values; None without
         coordinates.
     reading : Reading or None
@@ -64,7 +64,7 @@ class MobilityAnswer(MobilityReport, Printed):
     """
 
     exact: ExactMobility | None = None
-    pose: PoseMobility | None = None
+    infinitesimal: InfinitesimalMobility | None = None
     reading: Reading | None = None
 
     @classmethod
@@ -75,21 +75,21 @@ class MobilityAnswer(MobilityReport, Printed):
     @property
     def overconstraint(self) -> int | None:
         """H = degrees of freedom at the configuration - M, where both are known."""
-        if self.pose is None or self.pose.dof is None or self.mobility is None:
+        if self.infinitesimal is None or self.infinitesimal.dof is None or self.mobility is None:
             return None
-        return overconstraint(self.pose.dof, self.mobility)
+        return overconstraint(self.infinitesimal.dof, self.mobility)
 
     def to_json(self) -> dict[str, Any]:
         """Return the answer as plain data, with the keys that scripts rely on (docs/command-json.md)."""
         counted = super(MobilityAnswer, self).to_json()
         notes = {key: counted.pop(key) for key in ("repairs", "warnings")}
-        pose = None
-        if self.pose is not None:
-            ranks = self.pose.to_json()
-            pose = {"dof": ranks.pop("dof"), "gap": ranks.pop("gap"), "h": self.overconstraint, **ranks}
+        infinitesimal = None
+        if self.infinitesimal is not None:
+            ranks = self.infinitesimal.to_json()
+            infinitesimal = {"dof": ranks.pop("dof"), "gap": ranks.pop("gap"), "h": self.overconstraint, **ranks}
         exact = None if self.exact is None else self.exact.to_json()
         reading = None if self.reading is None else self.reading.to_json()
-        return {**counted, "exact": exact, "pose": pose, **notes, "reading": reading}
+        return {**counted, "exact": exact, "pose": infinitesimal, **notes, "reading": reading}
 
     def blocks(self, *, verbose: bool = False) -> list[Block]:
         """Return the lines that are printed, first what was left out of a drawing; verbose adds the table."""
@@ -101,7 +101,7 @@ class MobilityAnswer(MobilityReport, Printed):
 
     def evidence(self, *, verbose: bool = False, with_h: bool = True) -> list[Block]:
         """Return ranks and counts as lines, strongest first, with h; verbose adds the table of all equations."""
-        blocks: list[Block] = [] if self.pose is None else [_pose_line(self, with_h=with_h)]
+        blocks: list[Block] = [] if self.infinitesimal is None else [_infinitesimal_line(self, with_h=with_h)]
         if self.exact is not None:
             rank = f"exact rank {self.exact.rank} modulo two primes"
             blocks.append(f"generic realisation: mobility {self.exact.mobility}   ({rank})")
@@ -138,17 +138,17 @@ class MobilityAnswer(MobilityReport, Printed):
         return f"<MobilityAnswer: M = {self.mobility}, {self.mechanism_class}>"
 
 
-def _pose_line(answer: MobilityAnswer, *, with_h: bool) -> str:
+def _infinitesimal_line(answer: MobilityAnswer, *, with_h: bool) -> str:
     """Return the line on the infinitesimal degrees of freedom at the configuration."""
-    pose = answer.pose
-    assert pose is not None
-    if pose.dof is None:
+    infinitesimal = answer.infinitesimal
+    assert infinitesimal is not None
+    if infinitesimal.dof is None:
         return "at this configuration: indeterminate"
-    gap = pose.to_json()["gap"]
+    gap = infinitesimal.to_json()["gap"]
     evidence = "no zero singular value" if gap is None else f"singular-value gap {power_of_ten(gap)}"
     state = "flat state: fewer once folded; " if _is_only_flat(answer) else ""
     over = f"h = {answer.overconstraint}, " if with_h and answer.overconstraint is not None else ""
-    freedoms = numbered(pose.dof, "infinitesimal degree of freedom", "infinitesimal degrees of freedom")
+    freedoms = numbered(infinitesimal.dof, "infinitesimal degree of freedom", "infinitesimal degrees of freedom")
     return f"at this configuration: {freedoms}   ({state}{over}{evidence})"
 
 
@@ -169,17 +169,17 @@ def power_of_ten(number: float) -> str:
     return f"{digit}e{int(power)}"
 
 
-def notes_of_pose(pose: PoseMobility) -> list[str]:
+def notes_on_singular_values(infinitesimal: InfinitesimalMobility) -> list[str]:
     """Return the notes on the certainty of degrees of freedom at a configuration."""
-    evidence = pose.spectrum
-    if pose.dof is None:
+    evidence = infinitesimal.spectrum
+    if infinitesimal.dof is None:
         near = ", ".join(f"{value:.1e}" for value in evidence.undecided[:3])
         why = f"singular values near the noise: {near}" if near else "two counts of small values differ"
-        return [f"indeterminate at this configuration: {why}; precision of the coordinates: {pose.precision}"]
+        return [f"indeterminate at this configuration: {why}; precision of the coordinates: {infinitesimal.precision}"]
     notes = []
-    if min(evidence.largest_zero, pose.precision.size) > DOUBLE.closed:
+    if min(evidence.largest_zero, infinitesimal.precision.size) > DOUBLE.closed:
         zeros = f"singular values up to {evidence.largest_zero:.0e} are noise"
-        notes.append(f"coordinates precise to {pose.precision}: {zeros}")
+        notes.append(f"coordinates precise to {infinitesimal.precision}: {zeros}")
     if evidence.nearly:
         more = numbered(evidence.nearly, "more degree of freedom", "more degrees of freedom")
         notes.append(f"nearly mobile: {more} if small strains are allowed")
@@ -188,5 +188,5 @@ def notes_of_pose(pose: PoseMobility) -> list[str]:
 
 def _is_only_flat(answer: MobilityAnswer) -> bool:
     """Return whether a sheet owes degrees of freedom to its flat state."""
-    pose, over = answer.pose, answer.overconstraint
-    return pose is not None and pose.flat and bool(pose.flat_loops) and (over is None or over > 0)
+    here, over = answer.infinitesimal, answer.overconstraint
+    return here is not None and here.flat and bool(here.flat_loops) and (over is None or over > 0)

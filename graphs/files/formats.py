@@ -42,9 +42,6 @@ from graphs.files.outputs import Format, Lost, format_of, formats_by_suffix, unk
 from graphs.files.patterns.fold import fold_text, read_fold
 from graphs.files.patterns.legend import UNSTATED, Legend, Looks
 from graphs.files.patterns.obj import obj_text, sheet_from_obj
-from graphs.files.robots.mjcf import read_mjcf
-from graphs.files.robots.sdf import read_sdf
-from graphs.files.robots.urdf import read_urdf
 from graphs.files.text import load_json
 from graphs.identity.chains import chain_from_id
 from graphs.identity.drawings import mechanism_from_map_id
@@ -348,11 +345,11 @@ def _reader(path: Path, legend: Legend) -> Reader:
     return reader
 
 
-def _of_pattern(file: str, name: str) -> Callable[..., Any]:
-    """Return a function of `graphs.files.patterns`, imported when it is called: shapely takes time to load."""
+def _of(file: str, name: str) -> Callable[..., Any]:
+    """Return a function of a file of `graphs.files`, imported when it is called: most files are of other formats."""
 
     def function(*arguments: object) -> Any:
-        return getattr(import_module(f"graphs.files.patterns.{file}"), name)(*arguments)
+        return getattr(import_module(f"graphs.files.{file}"), name)(*arguments)
 
     return function
 
@@ -372,8 +369,8 @@ def _with_legend(suffix: str, legend: Legend) -> Reader:
 
 
 _DRAWINGS: dict[str, Callable[[Path, Legend], Mechanism]] = {
-    ".svg": _of_pattern("svg", "sheet_from_svg"),
-    ".dxf": _of_pattern("dxf", "sheet_from_dxf"),
+    ".svg": _of("patterns.svg", "sheet_from_svg"),
+    ".dxf": _of("patterns.dxf", "sheet_from_dxf"),
 }
 """Readers that take a legend too: the look of a line says what it is."""
 
@@ -381,14 +378,14 @@ READERS: dict[str, Reader] = {
     ".json": _one_of(lambda path: from_document(load_json(path), path)),
     ".fold": _one_of(read_fold),
     **{suffix: _with_legend(suffix, UNSTATED) for suffix in _DRAWINGS},
-    ".cp": _one_of(_of_pattern("lines", "sheet_from_cp")),
-    ".opx": _one_of(_of_pattern("lines", "sheet_from_opx")),
+    ".cp": _one_of(_of("patterns.lines", "sheet_from_cp")),
+    ".opx": _one_of(_of("patterns.lines", "sheet_from_opx")),
     ".obj": _one_of(sheet_from_obj),
     ".g6": _read_graph6,
     ".s6": _read_graph6,
-    ".xml": _one_of(read_mjcf),
-    ".urdf": _one_of(read_urdf),
-    ".sdf": _one_of(read_sdf),
+    ".xml": _one_of(_of("robots.mjcf", "read_mjcf")),
+    ".urdf": _one_of(_of("robots.urdf", "read_urdf")),
+    ".sdf": _one_of(_of("robots.sdf", "read_sdf")),
     ".graphml": _one_of(lambda path: as_linkage(read_graphml(path), path)),
     ".gml": _one_of(lambda path: as_linkage(read_gml(path), path)),
     **dict.fromkeys((".edges", ".edgelist", ".csv", ".txt"), _one_of(lambda path: as_sc(read_edge_list(path), path))),
@@ -417,8 +414,8 @@ def _text_format(
 
 
 WRITERS = formats_by_suffix(
-    _text_format(".cp", "crease pattern", _of_sheet(_of_pattern("lines", "cp_text")), losses.lost_as_cp),
-    _text_format(".dxf", "crease pattern, DXF R12", _of_sheet(_of_pattern("dxf", "dxf_text")), losses.lost_as_dxf),
+    _text_format(".cp", "crease pattern", _of_sheet(_of("patterns.lines", "cp_text")), losses.lost_as_cp),
+    _text_format(".dxf", "crease pattern, DXF R12", _of_sheet(_of("patterns.dxf", "dxf_text")), losses.lost_as_dxf),
     _text_format(".edges", "list of edges", lambda m: edge_list_text(to_sc(m)), losses.lost_as_bare_graph),
     _text_format(".fold", "crease pattern, FOLD", _of_sheet(fold_text), losses.lost_as_fold),
     _text_format(".g6", "graph6", lambda m: graph6_text(to_sc(m), sparse=False), losses.lost_as_nameless_graph),
@@ -426,7 +423,7 @@ WRITERS = formats_by_suffix(
     _text_format(".json", "native", _json_text, losses.lost_as_json),
     _text_format(".obj", "surface, OBJ", _of_sheet(obj_text), losses.lost_as_obj),
     _text_format(".s6", "sparse6", lambda m: graph6_text(to_sc(m), sparse=True), losses.lost_as_nameless_graph),
-    _text_format(".svg", "crease pattern, SVG", _of_sheet(_of_pattern("svg", "svg_text")), losses.lost_as_svg),
+    _text_format(".svg", "crease pattern, SVG", _of_sheet(_of("patterns.svg", "svg_text")), losses.lost_as_svg),
     _text_format(".txt", "list of edges", lambda m: edge_list_text(to_sc(m)), losses.lost_as_bare_graph),
 )
 """Suffix to the format in which mechanisms are written."""

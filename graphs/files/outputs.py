@@ -1,6 +1,6 @@
 """Formats of files that are written: a record for each, a table of records for each kind of content.
 
-Content is a mechanism, pages of a picture, a template, poses of a motion, solids, or rows of an atlas.
+Content is a mechanism, pages of a picture, a template, frames of a motion, solids, or rows of an atlas.
 """
 
 from collections.abc import Callable, Iterable, Mapping

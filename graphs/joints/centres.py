@@ -8,7 +8,6 @@ from itertools import combinations
 
 import networkx as nx
 import numpy as np
-from scipy.spatial import cKDTree
 
 from graphs.geometry import lines_meet, unit
 from graphs.loops.loop import Centre, Loop, added_independent
@@ -141,6 +140,8 @@ class _Lines:
 
 def _near(points: Floats, distance: float) -> list[Floats]:
     """Return the places of points that are near each other, or near such that are: int arrays."""
+    from scipy.spatial import cKDTree  # not at the head: a question about one vertex would wait for it
+
     joined = nx.Graph()
     joined.add_nodes_from(range(len(points)))
     joined.add_edges_from(cKDTree(points).query_pairs(distance))

@@ -6,11 +6,11 @@ from graphs.rank.exact import (
     mobility_without as mobility_without,
     relative_mobilities as relative_mobilities,
 )
-from graphs.rank.pose import (
-    PoseMobility as PoseMobility,
-    pose_mobility as pose_mobility,
-    pose_mobility_of_axes as pose_mobility_of_axes,
-    pose_mobility_of_model as pose_mobility_of_model,
+from graphs.rank.infinitesimal import (
+    InfinitesimalMobility as InfinitesimalMobility,
+    infinitesimal_mobility as infinitesimal_mobility,
+    infinitesimal_mobility_of_axes as infinitesimal_mobility_of_axes,
+    infinitesimal_mobility_of_model as infinitesimal_mobility_of_model,
 )
 from graphs.rank.rods import exact_mobility_of_model as exact_mobility_of_model
 from graphs.rank.singular_values import Spectrum as Spectrum

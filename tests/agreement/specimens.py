@@ -20,7 +20,7 @@ from synth.analysis.folding.motion import fold
 from synth.catalogue.patterns._generate import generate
 from synth.catalogue.patterns.generator import Generator
 from synth.catalogue.patterns.generators import GENERATORS
-from synth.making.drawing.space.poses import write_motion
+from synth.making.drawing.space.motion_files import write_motion
 from tests.support.real_patterns import folder_of_patterns, names_of_patterns
 
 __all__ = ["MOST_PANELS", "Placed", "Specimen", "is_placed", "is_wanted", "named_specimens", "specimens"]

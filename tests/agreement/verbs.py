@@ -149,7 +149,7 @@ def _can_be_driven(subject: Subject) -> bool:
 VERBS = (
     Verb(
         "mobility",
-        lambda s: synth.mobility(s.thing, exact=False, pose=s.frame),
+        lambda s: synth.mobility(s.thing, exact=False, frame=s.frame),
         lambda s: ["mobility", str(s.file), "--no-exact", "--json"],
         takes_any=True,
     ),

@@ -8,7 +8,7 @@ import pytest
 from commands import run
 from rich.tree import Tree
 
-from graphs.answer.mechanisms import mobility
+from graphs.answer.mobility import counts_and_ranks
 from graphs.errors import FileError, InvariantError, StoreError, SynthedraError, UnsolvableError, shown
 from graphs.files.patterns.svg import svg_text
 from graphs.mechanism.sc import SCGraph
@@ -89,7 +89,7 @@ def test_formulas_and_reports_clean_names(tmp_path):
     path.write_text(json.dumps(four_bar(["a\x1b[1m", "b", "c", "d"])))
     assert harmless(run("enumerate", "conical", "--chain", path, "--ground", 0, "--formulas").output)
     assert harmless(run("mobility", path).output)
-    assert harmless(str(mobility(SCGraph(["\x1b", "b"], [("\x1b", "b")]))))
+    assert harmless(str(counts_and_ranks(SCGraph(["\x1b", "b"], [("\x1b", "b")]))))
 
 
 def test_the_title_of_an_svg_is_xml():

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from sizes import slow
 
-from graphs.answer.mechanisms import mobility as counted
+from graphs.answer.mobility import counts_and_ranks as counted
 from graphs.files.formats import read
 from graphs.mechanism.precision import in_space
 from graphs.mechanism.sheet import Sheet, with_all_edges

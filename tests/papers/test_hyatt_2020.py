@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from conical import FOUR_BAR, crosses, random_link_angles, random_linkages
 from conical_rows import canonical_row
-from four_bar_poses import poses_from_conformed
+from four_bar_configurations import configurations_from_conformed
 from golden_numbers import golden_numbers
 from memberships import memberships
 from paper_formulas import projected_angles, table1
@@ -20,7 +20,7 @@ from graphs.count.report import mobility_report
 from graphs.files.formats import read, read_linkage
 from graphs.geometry import rotated
 from graphs.mechanism.surfaces import Cone, joint_axes
-from synth.linkages.conformed.pose import dihedral_angles
+from synth.linkages.conformed.dihedrals import dihedral_angles
 from synth.linkages.conformed.rates import ConformedChain, first_order
 from synth.linkages.fourbar.closing import grashof_class, kind_of_spherical, spherical_differences, supplementary
 from synth.linkages.surfaces.circuit import azimuths, circuits, link_angles, link_pairs, loop_steps
@@ -186,7 +186,7 @@ def test_positions(name):
     angles = dict(zip(("alpha", "eta", "beta", "gamma"), np.degrees(link_angles(steps, lam)), strict=True))
     assert angles == pytest.approx(wanted["link_angles"], abs=1e-9)
     turns = np.array(entry["inputs"]["dtheta"], dtype=float)
-    found = poses_from_conformed(steps, lam, np.radians(turns))
+    found = configurations_from_conformed(steps, lam, np.radians(turns))
     conformed = np.degrees(found.conformed)
     np.testing.assert_allclose(conformed, [wanted[k] for k in ("theta0", "psi0", "xi0")], atol=entry["tol"])
     start = joint_axes(azimuths(steps), lam)
@@ -210,7 +210,7 @@ def test_equations_21_and_23_agree_as_put_right_only(number, rng):
     _, steps, lam, angles = random_linkages(rng, number)
     far = []
     for one, tilt, links in zip(steps, lam, angles, strict=True):
-        found = poses_from_conformed(one, tilt, np.radians([-2, -0.5, 0.5, 2]))
+        found = configurations_from_conformed(one, tilt, np.radians([-2, -0.5, 0.5, 2]))
         good = np.isfinite(found.psi)
         assert (found.residual[good] < 1e-7).all()
         lengths = np.arccos(np.clip((found.axes * np.roll(found.axes, -1, axis=1)).sum(-1), -1, 1))

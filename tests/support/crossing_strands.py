@@ -21,7 +21,7 @@ class Strands:
 
     def __init__(self, answer, signs):
         self.answer, self.signs = answer, signs
-        posed, self.planes = answer.posed, answer.stacked.planes
+        posed, self.planes = answer.state, answer.stacked.planes
         self.points, sheet = posed.points, posed.sheet
         self.radius = _RADIUS * np.ptp(self.points, axis=0).max()
         self.faces = [np.array([self.points[v] for v in face]) for face in sheet.faces]

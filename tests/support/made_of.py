@@ -25,9 +25,9 @@ from synth.analysis.folding.derivatives import SheetDerivatives, vertex_places
 from synth.analysis.folding.motion import fold
 from synth.analysis.motion.closure import ClosureEquations, corrected
 from synth.analysis.motion.derivatives import BodyTree, Sensitivity, dependence_on_axes, derivatives_by_parameters
-from synth.analysis.motion.linkage import PosedLinkage, link_motions, linkage_of_axes, linkage_of_sheet
+from synth.analysis.motion.linkage import Linkage, link_motions, linkage_of_axes, linkage_of_sheet
 from synth.analysis.motion.path import driven_path
-from synth.analysis.moving._configuration_of import posed_on_surface
+from synth.analysis.moving._configuration_of import linkage_of_closed_form
 from synth.catalogue.patterns import hinged_rings, hinged_rings as five_bars
 from synth.catalogue.patterns.creases import (
     chickenwire,
@@ -51,7 +51,7 @@ class Made:
     `adjoint` are the derivatives that are tested.
     """
 
-    linkage: Callable[[np.ndarray], PosedLinkage]
+    linkage: Callable[[np.ndarray], Linkage]
     numbers: np.ndarray
     direction: np.ndarray
     angles: np.ndarray
@@ -152,7 +152,7 @@ def _ring(n):
 
 
 def _on_cone(rng):
-    linkage = posed_on_surface(loop_on_cones(np.radians(rng.uniform(40, 130, 5)))[0])
+    linkage = linkage_of_closed_form(loop_on_cones(np.radians(rng.uniform(40, 130, 5)))[0])
     directions = linkage.directions
     return _by_lines(linkage.graph, np.zeros_like(directions), directions, [0] * 3, [1] * 3, rng, 2)
 

@@ -9,7 +9,7 @@ import numpy as np
 from enumerate.scd.jobs import scd_rows
 from graphs.identity.drawings import mechanism_from_map_id
 from graphs.mechanism.drawing import FaceKind
-from graphs.rank.pose import pose_mobility
+from graphs.rank.infinitesimal import infinitesimal_mobility
 from synth.analysis.folding.configuration import configuration_of_sheet
 from synth.analysis.folding.motion import fold
 
@@ -52,5 +52,5 @@ def moved(sheet):
         goal -= 2 * TURN * np.sign(goal)
     folded = fold(sheet, drive={driven: goal}, frames=3)
     turned = float(np.abs(folded.path.angles - folded.path.angles[0]).max())
-    freedoms = {pose_mobility(frame).dof for frame in folded.frames()[1:]}
+    freedoms = {infinitesimal_mobility(frame).dof for frame in folded.frames()[1:]}
     return Moved(turned, freedoms, folded.closure, folded.path.stopped)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from graphs.mechanism.surfaces import joint_axes
-from synth.linkages.conformed.pose import dihedral_angles
+from synth.linkages.conformed.dihedrals import dihedral_angles
 
 
 def turned(vector, axis, angle):

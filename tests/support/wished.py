@@ -15,7 +15,7 @@ from synth.analysis.motion.path import driven_path
 from synth.catalogue.patterns.generators import GENERATORS
 from synth.linkages.conformed.linkage_behaviour import loop_on_cones
 from synth.synthesis.designing.dimensions import AxisDimensions, ConeDimensions, Dimensions, ParameterDimensions
-from synth.synthesis.designing.poses import DesignFrame, DesignPoint, PosedDesign
+from synth.synthesis.designing.placement import DesignConfiguration, DesignFrame, DesignPoint
 from synth.synthesis.designing.problem import DesignProblem
 from synth.synthesis.designing.wishes import LinkOrientation, PointPlace, WishedConfiguration, Wishes
 
@@ -137,7 +137,7 @@ def _with_wishes(family, angles, driver, rng):
     for number, at in enumerate(angles):
         name = f"input {number + 1}"
         configurations.append(WishedConfiguration(name, {joint: float(at[driver])}))
-        pose = PosedDesign(frame, design, at)
+        pose = DesignConfiguration(frame, design, at)
         for link in (links[place] for place in two):
             matrix = pose.rotation(frame.row(str(link))).values.reshape(3, 3)
             quaternion = tuple(Rotation.from_matrix(matrix).as_quat(scalar_first=True).tolist())

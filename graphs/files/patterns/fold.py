@@ -390,13 +390,13 @@ def _in_degrees(angles: Iterable[float | None]) -> list[float | None]:
     return [None if angle is None else degree for angle, degree in zip(given, result.tolist(), strict=True)]
 
 
-def fold_text_of_poses(sheet: Sheet, poses: Sequence[Sheet]) -> str:
-    """Return the text of a FOLD file with poses of a sheet as frames, the last of them in the key frame too.
+def fold_text_of_frames(sheet: Sheet, frames: Sequence[Sheet]) -> str:
+    """Return the text of a FOLD file with frames of a sheet as frames, the last of them in the key frame too.
 
-    Where the last pose lies flat, the key frame is the sheet: of panels that lie on each other no pattern is read.
+    Where the last frame lies flat, the key frame is the sheet: of panels that lie on each other no pattern is read.
     """
-    folded = bool(poses) and not lies_flat(poses[-1])
-    document = _document(replace(poses[-1], title=sheet.title) if folded else sheet)
+    folded = bool(frames) and not lies_flat(frames[-1])
+    document = _document(replace(frames[-1], title=sheet.title) if folded else sheet)
     document["file_classes"] = ["animation"]
     document["file_frames"] = [
         {
@@ -405,9 +405,9 @@ def fold_text_of_poses(sheet: Sheet, poses: Sequence[Sheet]) -> str:
             "frame_title": f"pose {number}",
             "frame_parent": 0,
             "frame_inherit": True,
-            "vertices_coords": [list(place) for place in pose.coordinates or ()],
-            **({} if pose.fold_angles is None else {"edges_foldAngle": _in_degrees(pose.fold_angles)}),
+            "vertices_coords": [list(place) for place in frame.coordinates or ()],
+            **({} if frame.fold_angles is None else {"edges_foldAngle": _in_degrees(frame.fold_angles)}),
         }
-        for number, pose in enumerate(poses)
+        for number, frame in enumerate(frames)
     ]
     return json_text(document)

@@ -54,8 +54,8 @@ def gltf_text(
 ) -> str:
     """Return meshes, each in its own frame, that move, as glTF text; all in millimetres.
 
-    A corner c of a mesh is at turn @ c + shift, with rotation matrices float[poses, meshes, 3, 3] and shifts
-    float[poses, meshes, 3]. `seconds` is from the first pose to the last; a single pose is not animated.
+    A corner c of a mesh is at turn @ c + shift, with rotation matrices float[frames, meshes, 3, 3] and shifts
+    float[frames, meshes, 3]. `seconds` is from the first frame to the last; a single frame is not animated.
     """
     buffer = _Buffer()
     drawn = [_mesh(mesh, buffer) for mesh in meshes]
@@ -94,16 +94,16 @@ def _mesh(mesh: SolidMesh, buffer: _Buffer) -> dict[str, Any]:
 
 
 def _quaternions(turns: Floats) -> Floats:
-    """Return rotations as quaternions, scalar last; each the nearer of the two that follow the pose before."""
+    """Return rotations as quaternions, scalar last; each the nearer of the two that follow the frame before."""
     quaternions: Floats = Rotation.from_matrix(turns.reshape(-1, 3, 3)).as_quat().reshape(*turns.shape[:2], 4)
-    for pose in range(1, len(quaternions)):
-        against = (quaternions[pose] * quaternions[pose - 1]).sum(axis=-1) < 0
-        quaternions[pose, against] *= -1
+    for frame in range(1, len(quaternions)):
+        against = (quaternions[frame] * quaternions[frame - 1]).sum(axis=-1) < 0
+        quaternions[frame, against] *= -1
     return quaternions
 
 
 def _animation(quaternions: Floats, shifts: Floats, seconds: float, buffer: _Buffer) -> dict[str, Any]:
-    """Return the motion of all meshes; between poses turns go round evenly."""
+    """Return the motion of all meshes; between frames turns go round evenly."""
     times = buffer.add(np.linspace(0, seconds, len(shifts)), "SCALAR", _FLOATS)
     samplers, channels = [], []
     for mesh in range(shifts.shape[1]):

@@ -6,4 +6,4 @@ from synth.analysis.advice.advice import (
     advise as advise,
 )
 from synth.analysis.advice.diagonals import Diagonal as Diagonal
-from synth.analysis.advice.locks import GeneralPose as GeneralPose, cheapest_sets as cheapest_sets
+from synth.analysis.advice.locks import GeneralConfiguration as GeneralConfiguration, cheapest_sets as cheapest_sets

@@ -27,7 +27,7 @@ from synth.analysis.advice.diagonals import (
     loads_on_stresses,
     smallest_sets,
 )
-from synth.analysis.advice.locks import Cost, GeneralPose, cheapest_sets, general_pose, held
+from synth.analysis.advice.locks import Cost, GeneralConfiguration, cheapest_sets, general_configuration, held
 from synth.analysis.folding.configuration import SheetConfiguration
 from synth.analysis.motion.closure import ClosureEquations
 from synth.analysis.motion.configuration import Configuration
@@ -438,24 +438,24 @@ def advise(
     costs = {joint: float(weight) for joint, weight in (weights or {}).items()}  # type: ignore[arg-type]
     protected = _Protected(frozenset(joints), frozenset(links), not flaps, costs)
     sheet = own.drawn if isinstance(own, SheetConfiguration) else None
-    pose = general_pose(own, branch)
-    _check_names(pose, protected)
-    answer = _begun(own, pose, freedoms)
-    if freedoms > pose.freedoms:
-        largest = freedoms - pose.freedoms + _ONE_MORE if size is None else size
-        _check_number("size", largest, freedoms - pose.freedoms)
-        return _with_creases(answer, pose, protected, (largest, limit))
-    if freedoms < pose.freedoms:
-        answer = _with_locks(answer, pose, protected, limit)
+    general = general_configuration(own, branch)
+    _check_names(general, protected)
+    answer = _begun(own, general, freedoms)
+    if freedoms > general.freedoms:
+        largest = freedoms - general.freedoms + _ONE_MORE if size is None else size
+        _check_number("size", largest, freedoms - general.freedoms)
+        return _with_creases(answer, general, protected, (largest, limit))
+    if freedoms < general.freedoms:
+        answer = _with_locks(answer, general, protected, limit)
     if leave_out:
         answer = replace(answer, locks=tuple(_with_left_out(lock, sheet) for lock in answer.locks))
     return answer
 
 
-def _begun(at: Configuration, pose: GeneralPose, freedoms: int) -> Advice:
+def _begun(at: Configuration, general: GeneralConfiguration, freedoms: int) -> Advice:
     """Return the answer before sets are found."""
-    every = list(pose.linkage.graph.joints)
-    return Advice(at, pose.freedoms, freedoms, pose.branch, tuple(every[place] for place in pose.flaps))
+    every = list(general.linkage.graph.joints)
+    return Advice(at, general.freedoms, freedoms, general.branch, tuple(every[place] for place in general.flaps))
 
 
 def _several(weights: Mapping[JointId, Any]) -> int | None:
@@ -486,7 +486,7 @@ def _table(
             raise InvariantError("at", f"an array of shape {at.shape}", expected)
     else:
         count = several or 0
-    here = None if at is not None else general_pose(own, branch)
+    here = None if at is not None else general_configuration(own, branch)
     answers: dict[int, Advice] = {}
     why: dict[int, str] = {}
     for entry in range(count):
@@ -495,11 +495,11 @@ def _table(
         if here is not None:
             _check_names(here, kept)
         try:
-            pose = here or general_pose(_in(own, at[entry]), branch)  # type: ignore[index]
-            if freedoms > pose.freedoms:
-                raise UnsolvableError(f"{pose.freedoms} degrees of freedom, and arrays are of joints to lock only")
-            answer = _begun(own, pose, freedoms)
-            answers[entry] = answer if freedoms == pose.freedoms else _with_locks(answer, pose, kept, limit)
+            general = here or general_configuration(_in(own, at[entry]), branch)  # type: ignore[index]
+            if freedoms > general.freedoms:
+                raise UnsolvableError(f"{general.freedoms} degrees of freedom, and arrays are of joints to lock only")
+            answer = _begun(own, general, freedoms)
+            answers[entry] = answer if freedoms == general.freedoms else _with_locks(answer, general, kept, limit)
         except (UnsolvableError, NumericalError) as error:
             why[entry] = str(error)
     return _as_arrays(own, freedoms, count, answers, why)
@@ -544,32 +544,32 @@ def _as_arrays(
     return table
 
 
-def _with_locks(answer: Advice, pose: GeneralPose, protected: _Protected, limit: int) -> Advice:
+def _with_locks(answer: Advice, general: GeneralConfiguration, protected: _Protected, limit: int) -> Advice:
     """Return the answer with the cheapest sets of joints to lock."""
-    size = pose.freedoms - answer.wanted
-    flaps = set(pose.flaps)
+    size = general.freedoms - answer.wanted
+    flaps = set(general.flaps)
     allowed = [
         place
-        for place, (joint, ends) in enumerate(pose.linkage.graph.joints.items())
+        for place, (joint, ends) in enumerate(general.linkage.graph.joints.items())
         if joint not in protected.joints
         and not (protected.flaps and place in flaps)
         and not set(ends) & set(protected.links)
     ]
-    most = held(pose.rates, allowed)
+    most = held(general.rates, allowed)
     if most < size:
-        least = pose.freedoms - most
+        least = general.freedoms - most
         raise UnsolvableError(
-            f"at least {least} of {numbered(pose.freedoms, 'degree of freedom', 'degrees of freedom')} remain: "
+            f"at least {least} of {numbered(general.freedoms, 'degree of freedom', 'degrees of freedom')} remain: "
             f"locking all joints that are not protected removes {most}, and {size} are to be removed"
         )
-    moves = np.round((pose.rates**2).sum(axis=1), _DIGITS)
+    moves = np.round((general.rates**2).sum(axis=1), _DIGITS)
     costs: list[Cost] = [
         (protected.weights.get(joint, 1.0), float(place in flaps), -float(moves[place]))
-        for place, joint in enumerate(pose.linkage.graph.joints)
+        for place, joint in enumerate(general.linkage.graph.joints)
     ]
-    allowance = _allowance(pose.rates)
-    first = list(islice(cheapest_sets(pose.rates, size, costs, allowed, allowance), limit + 1))
-    locks = tuple(_locked(pose, places, costs) for places in first[:limit])
+    allowance = _allowance(general.rates)
+    first = list(islice(cheapest_sets(general.rates, size, costs, allowed, allowance), limit + 1))
+    locks = tuple(_locked(general, places, costs) for places in first[:limit])
     used_up = allowance.left < 0
     return replace(answer, locks=locks, more=len(first) > limit or used_up, used_up=used_up)
 
@@ -587,14 +587,14 @@ def _with_left_out(lock: Locked, sheet: Sheet | None) -> Locked:
     return replace(lock, left_out=freedoms_when_left_out(sheet, joints))
 
 
-def _locked(pose: GeneralPose, places: tuple[int, ...], costs: Sequence[Cost]) -> Locked:
+def _locked(general: GeneralConfiguration, places: tuple[int, ...], costs: Sequence[Cost]) -> Locked:
     """Return a set of joints with what comes of locking them, its freedoms by a rank."""
-    every = list(pose.linkage.graph.joints)
+    every = list(general.linkage.graph.joints)
     chosen = set(places)
-    parts = split(pose.rates[list(places)])
-    immobile = np.abs(pose.rates @ parts.right[len(places) :].T).max(axis=1, initial=0.0) <= DOUBLE.zero_rate
-    flaps = set(pose.flaps)
-    matrix: Floats = ClosureEquations(pose.linkage).at(pose.linkage.angles)[1].toarray()
+    parts = split(general.rates[list(places)])
+    immobile = np.abs(general.rates @ parts.right[len(places) :].T).max(axis=1, initial=0.0) <= DOUBLE.zero_rate
+    flaps = set(general.flaps)
+    matrix: Floats = ClosureEquations(general.linkage).at(general.linkage.angles)[1].toarray()
     others = np.delete(matrix, list(places), axis=1)
     rank = spectrum(others, DOUBLE.derivative).rank
     return Locked(
@@ -607,21 +607,23 @@ def _locked(pose: GeneralPose, places: tuple[int, ...], costs: Sequence[Cost]) -
     )
 
 
-def _with_creases(answer: Advice, pose: GeneralPose, protected: _Protected, most: tuple[int, int]) -> Advice:
+def _with_creases(
+    answer: Advice, general: GeneralConfiguration, protected: _Protected, most: tuple[int, int]
+) -> Advice:
     """Return the answer with the smallest sets of diagonals that bring the freedoms wanted."""
     at, freedoms = answer.configuration, answer.wanted
-    if pose.sheet is None or not isinstance(at, SheetConfiguration):
+    if general.sheet is None or not isinstance(at, SheetConfiguration):
         raise UnsolvableError(
-            f"{numbered(pose.freedoms, 'degree of freedom', 'degrees of freedom')}, and {freedoms} required: "
+            f"{numbered(general.freedoms, 'degree of freedom', 'degrees of freedom')}, and {freedoms} required: "
             "only panels of a sheet can be creased"
         )
     largest, limit = most
-    diagonals = diagonals_of(pose, protected.links)
-    loads, flaps = loads_on_stresses(pose, diagonals)
+    diagonals = diagonals_of(general, protected.links)
+    loads, flaps = loads_on_stresses(general, diagonals)
     chosen = [place for place, flap in enumerate(flaps) if not (flap and protected.flaps)]
     candidates = Candidates([diagonals[place] for place in chosen], loads[:, chosen], _allowance(loads))
-    bounds = Bounds(pose.freedoms, pose.rates.shape[1], freedoms, largest)
-    search = smallest_sets(pose.sheet, candidates, bounds, limit)
+    bounds = Bounds(general.freedoms, general.rates.shape[1], freedoms, largest)
+    search = smallest_sets(general.sheet, candidates, bounds, limit)
     creases = tuple(
         Creased(
             tuple(_as_given(candidates.diagonals[place], at.drawn) for place in places),
@@ -652,9 +654,9 @@ def _check_number(what: str, number: int, least: int) -> None:
         raise InvariantError(what, f"{what}: {number}", f"{least} or more")
 
 
-def _check_names(pose: GeneralPose, protected: _Protected) -> None:
+def _check_names(general: GeneralConfiguration, protected: _Protected) -> None:
     """Refuse joints and links that are not there, and weights that are none."""
-    graph = pose.linkage.graph
+    graph = general.linkage.graph
     for joint in (*protected.joints, *protected.weights):
         if joint not in graph.joints:
             raise InvariantError("joint", f"{shown(joint)} is no joint", known(graph.joints, str(joint)))

@@ -24,9 +24,9 @@ from graphs.mechanism.sheet import Sheet, sides_of_face
 from graphs.rank.singular_values import split
 from graphs.tolerances import DOUBLE
 from graphs.types import Floats, LinkId
-from synth.analysis.advice.locks import GeneralPose
+from synth.analysis.advice.locks import GeneralConfiguration
 from synth.analysis.folding.configuration import configuration_of_sheet
-from synth.analysis.motion.linkage import PosedLinkage, PosedLoop
+from synth.analysis.motion.linkage import Linkage, LinkageLoop
 from synth.analysis.motion.walk.step import Allowance
 
 
@@ -56,29 +56,29 @@ class Diagonal:
         return self.face == other.face and (a < c < b < d or c < a < d < b)
 
 
-def diagonals_of(pose: GeneralPose, protected: Collection[LinkId] = ()) -> list[Diagonal]:
+def diagonals_of(general: GeneralConfiguration, protected: Collection[LinkId] = ()) -> list[Diagonal]:
     """Return the diagonals of all unprotected panels that are one face.
 
     A diagonal joins two corners, inside the panel and past its other corners. Those that would part the pieces of
     a hinge are left out: they would make two joints of it.
     """
-    if pose.sheet is None or pose.mechanism is None:
+    if general.sheet is None or general.mechanism is None:
         return []
-    points = _points(pose)
+    points = _points(general)
     diagonals = []
-    for panel, faces in enumerate(pose.mechanism.panels):
+    for panel, faces in enumerate(general.mechanism.panels):
         if panel in protected or len(faces) != 1:
             continue
-        around = pose.sheet.faces[faces[0]]
+        around = general.sheet.faces[faces[0]]
         corners = _in_plane(points[list(around)])
         for pair in combinations(range(len(around)), 2):
             diagonal = Diagonal(panel, faces[0], pair, (around[pair[0]], around[pair[1]]))
-            if _is_inside(corners, pair) and not _parts_a_hinge(pose, diagonal):
+            if _is_inside(corners, pair) and not _parts_a_hinge(general, diagonal):
                 diagonals.append(diagonal)
     return diagonals
 
 
-def loads_on_stresses(pose: GeneralPose, diagonals: Sequence[Diagonal]) -> tuple[Floats, list[bool]]:
+def loads_on_stresses(general: GeneralConfiguration, diagonals: Sequence[Diagonal]) -> tuple[Floats, list[bool]]:
     """Return what creases along diagonals do to each self-stress, float[s, D], and which of them are in no loop.
 
     A set of creases brings as many rates as it has creases, less the rank of its columns: a zero column is a
@@ -86,41 +86,41 @@ def loads_on_stresses(pose: GeneralPose, diagonals: Sequence[Diagonal]) -> tuple
     close by six equations here, so that no crease has to pass through a centre. Raise `NumericalError` if the rank
     of the closure equations is not that of the equations about centres.
     """
-    linkage = pose.linkage
+    linkage = general.linkage
     matrix = np.zeros((6 * len(linkage.loops), len(linkage.angles)))
     for number, loop in enumerate(linkage.loops):
         for joint, sign in zip(loop.joints, loop.signs, strict=True):
             twist = _twist(linkage.points[joint], linkage.directions[joint])
             matrix[6 * number : 6 * number + 6, joint] += sign * twist
     parts = split(matrix)
-    expected = len(linkage.angles) - pose.rates.shape[1]
+    expected = len(linkage.angles) - general.rates.shape[1]
     if parts.rank != expected:
         raise NumericalError(
             f"the closure equations in space have rank {parts.rank} at this configuration; "
             f"expected {expected}, as about centres"
         )
-    columns = np.array([_column(pose, one) for one in diagonals]).reshape(len(diagonals), len(matrix))
+    columns = np.array([_column(general, one) for one in diagonals]).reshape(len(diagonals), len(matrix))
     flaps = [not column.any() for column in columns]
     return parts.cokernel.T @ columns.T, flaps
 
 
-def _points(pose: GeneralPose) -> Floats:
+def _points(general: GeneralConfiguration) -> Floats:
     """Return the vertices where the axes are: in units of the extent, about the middle."""
-    assert pose.sheet is not None
-    assert pose.sheet.coordinates is not None
-    return (in_space(pose.sheet.coordinates) - pose.linkage.middle) / pose.linkage.extent
+    assert general.sheet is not None
+    assert general.sheet.coordinates is not None
+    return (in_space(general.sheet.coordinates) - general.linkage.middle) / general.linkage.extent
 
 
-def _column(pose: GeneralPose, diagonal: Diagonal) -> Floats:
+def _column(general: GeneralConfiguration, diagonal: Diagonal) -> Floats:
     """Return the derivatives of all loops, six equations each, by the fold along a diagonal: float[6 L]."""
-    beyond = _joints_at(pose, _sides(pose, diagonal)[0])
-    start, end = _points(pose)[list(diagonal.ends)]
+    beyond = _joints_at(general, _sides(general, diagonal)[0])
+    start, end = _points(general)[list(diagonal.ends)]
     twist = _twist(start, (end - start) / float(np.linalg.norm(end - start)))
-    return np.concatenate([np.zeros(0), *(_passes(pose.linkage, loop, diagonal.panel, beyond) * twist
-                                          for loop in pose.linkage.loops)])  # fmt: skip
+    return np.concatenate([np.zeros(0), *(_passes(general.linkage, loop, diagonal.panel, beyond) * twist
+                                          for loop in general.linkage.loops)])  # fmt: skip
 
 
-def _passes(linkage: PosedLinkage, loop: PosedLoop, panel: LinkId, beyond: Collection[int]) -> int:
+def _passes(linkage: Linkage, loop: LinkageLoop, panel: LinkId, beyond: Collection[int]) -> int:
     """Return how often a loop passes a diagonal to the joints beyond it, less how often it comes back."""
     pairs = list(linkage.graph.joints.values())
     times = 0
@@ -131,27 +131,27 @@ def _passes(linkage: PosedLinkage, loop: PosedLoop, panel: LinkId, beyond: Colle
     return times
 
 
-def _parts_a_hinge(pose: GeneralPose, diagonal: Diagonal) -> bool:
+def _parts_a_hinge(general: GeneralConfiguration, diagonal: Diagonal) -> bool:
     """Check whether a joint has edges on both sides of a diagonal."""
-    between, around = _sides(pose, diagonal)
-    return not _joints_at(pose, between).isdisjoint(_joints_at(pose, around))
+    between, around = _sides(general, diagonal)
+    return not _joints_at(general, between).isdisjoint(_joints_at(general, around))
 
 
-def _sides(pose: GeneralPose, diagonal: Diagonal) -> tuple[set[frozenset[int]], set[frozenset[int]]]:
+def _sides(general: GeneralConfiguration, diagonal: Diagonal) -> tuple[set[frozenset[int]], set[frozenset[int]]]:
     """Return the sides of a panel between the two corners of a diagonal, and the others."""
-    assert pose.sheet is not None
+    assert general.sheet is not None
     first, last = diagonal.corners
-    every = list(map(frozenset, sides_of_face(pose.sheet.faces[diagonal.face])))
+    every = list(map(frozenset, sides_of_face(general.sheet.faces[diagonal.face])))
     return set(every[first:last]), {*every[:first], *every[last:]}
 
 
-def _joints_at(pose: GeneralPose, edges: Collection[frozenset[int]]) -> set[int]:
+def _joints_at(general: GeneralConfiguration, edges: Collection[frozenset[int]]) -> set[int]:
     """Return the places of the joints that have one of some edges."""
-    assert pose.mechanism is not None
-    pieces = pose.mechanism.pieces
+    assert general.mechanism is not None
+    pieces = general.mechanism.pieces
     return {
         place
-        for place, joint in enumerate(pose.linkage.graph.joints)
+        for place, joint in enumerate(general.linkage.graph.joints)
         if any(frozenset(edge) in edges for edge in pieces[joint])  # type: ignore[index]  # numbers of edges
     }
 
@@ -247,7 +247,7 @@ class DiagonalSets:
 
 
 def smallest_sets(sheet: Sheet, candidates: Candidates, bounds: Bounds, limit: int) -> DiagonalSets:
-    """Return the smallest sets of diagonals, up to a limit, that give a sheet at a general pose its freedoms."""
+    """Return the smallest sets of diagonals, up to a limit, that give a general configuration its freedoms."""
     refused = 0
     for size in range(bounds.wanted - bounds.freedoms, bounds.largest + 1):
         sets: list[tuple[int, ...]] = []

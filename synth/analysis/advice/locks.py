@@ -1,7 +1,7 @@
 """Which joints to lock, at a configuration where motions to first order are finite ones.
 
 At a singular configuration, such as a flat sheet, ranks say little of the motion. Advice is given at another then,
-on the motion branch that the user names, or that the assignment chooses (`general_pose`).
+on the motion branch that the user names, or that the assignment chooses (`general_configuration`).
 
 Rates of M freedoms are the columns of a matrix with a row for each joint. To lock joints takes as many freedoms as
 the rank of their rows, so the sets that take one each are the independent sets of a matroid, the dual of that of
@@ -26,7 +26,7 @@ from synth.analysis.folding.configuration import SheetConfiguration
 from synth.analysis.motion.closure import ClosureEquations
 from synth.analysis.motion.configuration import Configuration
 from synth.analysis.motion.driven_motion import BranchChoice, beginning
-from synth.analysis.motion.linkage import PosedLinkage, linkage_of_sheet, moved
+from synth.analysis.motion.linkage import Linkage, linkage_of_sheet, moved
 from synth.analysis.motion.singular.sampling import finite_rates
 from synth.analysis.motion.singular.second_order import rates_at
 from synth.analysis.motion.walk.step import Allowance
@@ -34,12 +34,12 @@ from synth.analysis.verdict.verdict import flaps_of
 
 
 @dataclass(frozen=True, slots=True)
-class GeneralPose:
+class GeneralConfiguration:
     """A linkage at a regular configuration.
 
     Attributes
     ----------
-    linkage : PosedLinkage
+    linkage : Linkage
         At this configuration.
     rates : float[J, M]
         Orthonormal columns span the rates of its motions.
@@ -51,7 +51,7 @@ class GeneralPose:
         Whether it is proved that nothing moves from the input configuration, whatever rates there are.
     """
 
-    linkage: PosedLinkage
+    linkage: Linkage
     rates: Floats
     branch: int | None
     sheet: Sheet | None = None
@@ -70,10 +70,10 @@ class GeneralPose:
         return tuple(place for place, joint in enumerate(self.linkage.graph.joints) if joint in loose)
 
     def __repr__(self) -> str:
-        return f"<GeneralPose: {self.freedoms} freedoms of {self.linkage!r}>"
+        return f"<GeneralConfiguration: {self.freedoms} freedoms of {self.linkage!r}>"
 
 
-def general_pose(configuration: Configuration, branch: int | str | None = None) -> GeneralPose:
+def general_configuration(configuration: Configuration, branch: int | str | None = None) -> GeneralConfiguration:
     """Return a mechanism at a regular configuration near its own, which may be singular.
 
     The branch is a number or signs; by default the assignment chooses it. Raise `UnsolvableError` if no motion was
@@ -91,16 +91,16 @@ def general_pose(configuration: Configuration, branch: int | str | None = None) 
     here = (None, None) if sheet is None else (sheet.sheet, sheet.mechanism)
     if branches.no_motion == "proved":
         rates = rates_at(configuration.closure, linkage.angles)
-        return GeneralPose(linkage, rates, None, here[0], here[1], rigid=True)
+        return GeneralConfiguration(linkage, rates, None, here[0], here[1], rigid=True)
     number, _ = beginning(configuration, BranchChoice(branch))
     chosen = branches.branch(number or 0)
     angles, rates = _regular(configuration, linkage.angles if number is None else chosen.sample, chosen.freedoms)
     if number is None:
-        return GeneralPose(linkage, rates, None, *here)
+        return GeneralConfiguration(linkage, rates, None, *here)
     if sheet is None:
-        return GeneralPose(moved(linkage, angles), rates, number)
+        return GeneralConfiguration(moved(linkage, angles), rates, number)
     placed = sheet.at(angles)
-    return GeneralPose(linkage_of_sheet(placed, sheet.mechanism), rates, number, placed, sheet.mechanism)
+    return GeneralConfiguration(linkage_of_sheet(placed, sheet.mechanism), rates, number, placed, sheet.mechanism)
 
 
 def _regular(configuration: Configuration, angles: Floats, freedoms: int | None) -> tuple[Floats, Floats]:
@@ -109,8 +109,8 @@ def _regular(configuration: Configuration, angles: Floats, freedoms: int | None)
     Of a linkage that is shaky in all its configurations, such as scissors on a polyhedron, more rates close to
     first order than it moves by; those that close to second order are taken then.
     """
-    posed = moved(configuration.linkage, angles)
-    rates = rates_at(ClosureEquations(posed), posed.angles)
+    there = moved(configuration.linkage, angles)
+    rates = rates_at(ClosureEquations(there), there.angles)
     if rates.shape[1] == freedoms:
         return angles, rates
     located, finite = finite_rates(configuration.linkage, configuration.closure, angles)

@@ -15,13 +15,13 @@ import numpy as np
 
 from graphs.loops.loop import Centre
 from graphs.tolerances import DOUBLE, Tolerances
-from synth.analysis.motion.linkage import PosedLinkage, PosedLoop, centre_of
+from synth.analysis.motion.linkage import Linkage, LinkageLoop, centre_of
 
 _Passage = tuple[int, int, int]
 """A joint, and the links, by their numbers, from which and to which a loop passes it."""
 
 
-def with_own_joints(linkage: PosedLinkage, tolerances: Tolerances) -> PosedLinkage:
+def with_own_joints(linkage: Linkage, tolerances: Tolerances) -> Linkage:
     """Return the linkage with loops each of which begins or ends with a joint to be cut at, where there are such.
 
     Loops that share joints are replaced by those of a tree of links, if they are all about centres, or in one plane.
@@ -30,7 +30,7 @@ def with_own_joints(linkage: PosedLinkage, tolerances: Tolerances) -> PosedLinka
     together = nx.Graph()
     for number, loop in enumerate(linkage.loops):
         together.add_edges_from((("loop", number), joint) for joint in loop.joints)
-    loops: list[PosedLoop] = []
+    loops: list[LinkageLoop] = []
     for part in nx.connected_components(together):
         own = [linkage.loops[node[1]] for node in sorted(node for node in part if isinstance(node, tuple))]
         centres = {centre_of(linkage, loop, tolerances) for loop in own}
@@ -51,7 +51,7 @@ def with_own_joints(linkage: PosedLinkage, tolerances: Tolerances) -> PosedLinka
 class _Cuts:
     """At which links joints may be cut off."""
 
-    def __init__(self, linkage: PosedLinkage, tolerances: Tolerances) -> None:
+    def __init__(self, linkage: Linkage, tolerances: Tolerances) -> None:
         number = {link: place for place, link in enumerate(linkage.graph.nodes)}
         self._linkage = linkage
         self.ends = [(number[one], number[other]) for one, other in linkage.graph.joints.values()]
@@ -62,7 +62,7 @@ class _Cuts:
         flat = [loop for loop in linkage.loops if centre_of(linkage, loop, tolerances) is Centre.INFINITE]
         self._in_plane = {joint for loop in flat for joint in loop.joints}
 
-    def in_one_plane(self, loops: Sequence[PosedLoop], centre: Centre) -> bool:
+    def in_one_plane(self, loops: Sequence[LinkageLoop], centre: Centre) -> bool:
         turning = [joint for loop in loops for joint in loop.joints if joint not in self._linkage.slides]
         axes = self._linkage.directions[turning]
         return centre is Centre.FINITE or bool(np.abs(np.cross(axes, axes[0])).max() <= DOUBLE.meant)
@@ -78,7 +78,7 @@ class _Cuts:
                 return False
         return True
 
-    def passages(self, loop: PosedLoop) -> list[_Passage]:
+    def passages(self, loop: LinkageLoop) -> list[_Passage]:
         return [
             (joint, *(self.ends[joint] if sign > 0 else self.ends[joint][::-1]))
             for joint, sign in zip(loop.joints, loop.signs, strict=True)

@@ -29,7 +29,7 @@ from graphs.tolerances import DOUBLE, Tolerances
 from graphs.types import Flags, Floats, Ints, JointId
 from synth.analysis.assembly.kernel import ARRIVED, DIRECTION, FAR, POINT, SLIDE, Complexes, Line, Type
 from synth.analysis.assembly.tracking import corrected_all, evaluated, followed_all
-from synth.analysis.motion.linkage import PosedLinkage, PosedLoop, centre_of
+from synth.analysis.motion.linkage import Linkage, LinkageLoop, centre_of
 
 Curves = tuple[Complexes, Complexes, Complexes]
 SMALL = 3e-3
@@ -135,9 +135,7 @@ class TrackedPaths(NamedTuple):
     far: Flags
 
 
-def family_of(
-    linkage: PosedLinkage, driven: Sequence[JointId], tolerances: Tolerances = DOUBLE
-) -> tuple[Family, Floats]:
+def family_of(linkage: Linkage, driven: Sequence[JointId], tolerances: Tolerances = DOUBLE) -> tuple[Family, Floats]:
     """Return the family of a linkage with driven joints, and the parameters of this member's axes: float[2 A].
 
     Joints in no loop are left out. Axes meet or are parallel within the tolerances. Raise `UnsolvableError` if a loop
@@ -215,7 +213,7 @@ def _check_number(driven: Sequence[JointId], freedoms: int) -> None:
 class _Axes:
     """The axes of a member, each with two parameters: one for each joint in each plane or sphere that it is in."""
 
-    def __init__(self, linkage: PosedLinkage, tolerances: Tolerances) -> None:
+    def __init__(self, linkage: Linkage, tolerances: Tolerances) -> None:
         self._linkage = linkage
         self._tolerances = tolerances
         self._slides = set(linkage.slides)
@@ -225,7 +223,7 @@ class _Axes:
         self.parameters: list[tuple[float, float]] = []
         self.lines: list[tuple[float, float, float]] = []
 
-    def of_loop(self, loop: PosedLoop) -> tuple[list[int], list[int]]:
+    def of_loop(self, loop: LinkageLoop) -> tuple[list[int], list[int]]:
         """Return the axis of each joint of a loop, and -1 where it points against the normal of the plane."""
         directions = self._linkage.directions
         centre = centre_of(self._linkage, loop, self._tolerances)

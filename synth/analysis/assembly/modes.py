@@ -24,7 +24,7 @@ from synth.analysis.assembly.kernel import Complexes
 from synth.analysis.assembly.precise import certified
 from synth.analysis.assembly.redundant import Loosened, loosened
 from synth.analysis.motion.configuration import Configuration
-from synth.analysis.motion.linkage import PosedLinkage
+from synth.analysis.motion.linkage import Linkage
 from synth.analysis.motion.path import circuit_through
 from synth.analysis.motion.walk.events import TurningPoint
 from synth.analysis.motion.walk.step import Step
@@ -341,7 +341,7 @@ def positions(
 
     Parameters
     ----------
-    mechanism : Mechanism or PosedLinkage
+    mechanism : Mechanism or Linkage
         With coordinates. The axes of each loop meet in a point, which need not be the same for all, or are
         parallel; prismatic joints slide across them.
     drive : mapping of joint id to float, or to float[F]
@@ -516,7 +516,7 @@ def _table(
     )  # fmt: skip
 
 
-def _angles(linkage: PosedLinkage, family: Family, member: Complexes, unknowns: Floats) -> Floats:
+def _angles(linkage: Linkage, family: Family, member: Complexes, unknowns: Floats) -> Floats:
     """Return the angles of all joints, above -180 and up to 180 degrees; joints in no loop stay as they are.
 
     Joints that slide have lengths, in units of the extent.
@@ -533,7 +533,7 @@ def _angles(linkage: PosedLinkage, family: Family, member: Complexes, unknowns: 
     return wrapped
 
 
-def _units(linkage: PosedLinkage) -> Floats:
+def _units(linkage: Linkage) -> Floats:
     """Return what joint angles and lengths are multiplied by to be in the unit of the coordinates: float[J]."""
     units = np.ones(len(linkage.angles))
     units[list(linkage.slides)] = linkage.extent

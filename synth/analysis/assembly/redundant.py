@@ -18,7 +18,7 @@ from graphs.types import Floats, JointId, LinkId
 from synth.analysis.assembly.family import family_of
 from synth.analysis.assembly.general import determines
 from synth.analysis.assembly.kernel import CLOSED
-from synth.analysis.motion.linkage import PosedLinkage, PosedLoop, centre_of
+from synth.analysis.motion.linkage import Linkage, LinkageLoop, centre_of
 
 _TRIED = 500
 """Sets of bars that are tried."""
@@ -32,7 +32,7 @@ _BENT = 1e-6
 class Loosened:
     """A linkage whose redundant bars have an elbow: their joints come after all others, and these links are they."""
 
-    linkage: PosedLinkage
+    linkage: Linkage
     bars: tuple[LinkId, ...]
 
     @property
@@ -41,7 +41,7 @@ class Loosened:
         return {("elbow", bar) for bar in self.bars}
 
 
-def loosened(linkage: PosedLinkage, driven: Sequence[JointId], tolerances: Tolerances) -> Loosened:
+def loosened(linkage: Linkage, driven: Sequence[JointId], tolerances: Tolerances) -> Loosened:
     """Return the linkage with an elbow in as many bars as driven joints are more than the count allows.
 
     A bar whose length is implied by the rest of the linkage is an equation too many in the count of freedoms. With an
@@ -78,7 +78,7 @@ def _stays_straight(loose: Loosened, driven: Sequence[JointId], tolerances: Tole
     return bool(error[0] <= CLOSED) and bool(np.abs(values[0, elbows]).max() <= _MOVED * max(_BENT, tolerances.zero))
 
 
-def _bars(linkage: PosedLinkage, driven: Sequence[JointId], tolerances: Tolerances) -> list[LinkId]:
+def _bars(linkage: Linkage, driven: Sequence[JointId], tolerances: Tolerances) -> list[LinkId]:
     """Return the links with two joints, which turn, are in loops about a centre or in a plane, and are not driven."""
     names = list(linkage.graph.joints)
     centred = {
@@ -99,7 +99,7 @@ def _bars(linkage: PosedLinkage, driven: Sequence[JointId], tolerances: Toleranc
     ]
 
 
-def _with_elbow(linkage: PosedLinkage, bar: LinkId, tolerances: Tolerances) -> PosedLinkage:
+def _with_elbow(linkage: Linkage, bar: LinkId, tolerances: Tolerances) -> Linkage:
     """Return the linkage with a bar in two, joined off the line between its joints."""
     graph, names = linkage.graph, list(linkage.graph.joints)
     first, second = (joint for joint, links in graph.joints.items() if bar in links)
@@ -115,7 +115,7 @@ def _with_elbow(linkage: PosedLinkage, bar: LinkId, tolerances: Tolerances) -> P
             order.insert(max(ends) if abs(ends[0] - ends[1]) == 1 else 0, elbow)
         passed, signs = zip(*signed_cycle(order, joints), strict=True)
         column = [len(names) if joint == elbow else names.index(joint) for joint in passed]
-        loops.append(PosedLoop(tuple(column), signs, centre_of(linkage, loop, tolerances)))
+        loops.append(LinkageLoop(tuple(column), signs, centre_of(linkage, loop, tolerances)))
     centre = next(loop.centre for loop in loops if len(names) in loop.joints)
     point, direction = _elbow(linkage, names.index(first), names.index(second), centre)
     return replace(
@@ -128,7 +128,7 @@ def _with_elbow(linkage: PosedLinkage, bar: LinkId, tolerances: Tolerances) -> P
     )
 
 
-def _elbow(linkage: PosedLinkage, first: int, second: int, centre: Centre) -> tuple[Floats, Floats]:
+def _elbow(linkage: Linkage, first: int, second: int, centre: Centre) -> tuple[Floats, Floats]:
     """Return an axis between two, at a right angle off their line or arc: stretched, the elbow would be singular."""
     (p, q), (a, b) = linkage.points[[first, second]], linkage.directions[[first, second]]
     if centre is Centre.INFINITE:

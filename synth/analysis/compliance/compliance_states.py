@@ -37,11 +37,11 @@ from synth.analysis.compliance.springs import (
 )
 from synth.analysis.motion.configuration import Configuration
 from synth.analysis.motion.driven_motion import goals_of
-from synth.analysis.motion.linkage import PosedLinkage, moved
+from synth.analysis.motion.linkage import Linkage, moved
 from synth.analysis.moving._configuration_of import Movable, configuration_of
 
 _LISTED = 20
-"""Sets, transitions, poses and modes that are printed; data has all."""
+"""Sets, transitions, configurations and modes that are printed; data has all."""
 _NAMED = 12
 """Members of a set that are named."""
 
@@ -65,10 +65,10 @@ class Transition:
         return f"{self.name}: from {_summary(self.before)} to {_summary(self.after)}"
 
 
-class PathPose(NamedTuple):
-    """A pose of the load path, and the state of the mechanism there."""
+class LoadPathPoint(NamedTuple):
+    """A configuration of the load path, and the state of the mechanism there."""
 
-    pose: Equilibrium
+    balance: Equilibrium
     state: State
 
 
@@ -81,16 +81,16 @@ class RestPassed(NamedTuple):
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Elastic:
-    """The pose at which springs and moments are in balance, a load path from there, and modes about it.
+    """The configuration at which springs and moments are in balance, a load path from there, and modes about it.
 
-    `joints` are the columns of angles and rates; `path` holds the poses while the driver is driven, `stopped` says
+    `joints` are the columns of angles and rates; `path` holds the equilibria while the driver is driven, `stopped` says
     why they end before the goal. `modes` is None without masses.
     """
 
     joints: tuple[JointId, ...]
-    pose: Equilibrium
+    balance: Equilibrium
     driver: JointId | None = None
-    path: tuple[PathPose, ...] = ()
+    path: tuple[LoadPathPoint, ...] = ()
     passed: tuple[RestPassed, ...] = ()
     stopped: str = ""
     modes: tuple[SmallMotion, ...] | None = None
@@ -102,13 +102,13 @@ class Elastic:
             for mode in self.modes or ()
         ]
         return {
-            "equilibrium": self._pose(self.pose),
+            "equilibrium": self._equilibrium_to_json(self.balance),
             "driver": self.driver,
             "path": [
                 {
-                    "driven_deg": degrees(float(point.pose.angles[self._column])),
-                    "moment": float(point.pose.held[0]),
-                    **self._pose(point.pose),
+                    "driven_deg": degrees(float(point.balance.angles[self._column])),
+                    "moment": float(point.balance.held[0]),
+                    **self._equilibrium_to_json(point.balance),
                     "state": point.state.to_json(),
                 }
                 for point in self.path
@@ -126,34 +126,34 @@ class Elastic:
     def _named(self, values: Floats) -> dict[str, float]:
         return {str(joint): value for joint, value in zip(self.joints, values.tolist(), strict=True)}
 
-    def _pose(self, pose: Equilibrium) -> dict[str, Any]:
+    def _equilibrium_to_json(self, balance: Equilibrium) -> dict[str, Any]:
         return {
-            "angles_deg": self._named(np.degrees(pose.angles)),
-            "energy": pose.energy,
-            "stable": pose.stable,
-            "least_curvature": pose.least,
-            "unbalanced": pose.unbalanced,
-            "closure": pose.error,
+            "angles_deg": self._named(np.degrees(balance.angles)),
+            "energy": balance.energy,
+            "stable": balance.stable,
+            "least_curvature": balance.least,
+            "unbalanced": balance.unbalanced,
+            "closure": balance.error,
         }
 
     def blocks(self) -> list[Block]:
         """Return the lines and tables that are printed."""
-        how = "stable" if self.pose.stable else "not stable"
+        how = "stable" if self.balance.stable else "not stable"
         ends = ", ".join(
             f"{shown(joint)} = {degrees(angle):.6g}°"
-            for joint, angle in zip(self.joints, self.pose.angles.tolist(), strict=True)
+            for joint, angle in zip(self.joints, self.balance.angles.tolist(), strict=True)
         )
-        summary = f"equilibrium of the springs: {how}, energy {self.pose.energy:.6g}"
-        evidence = f"residual moments {self.pose.unbalanced:.0e}, loop-closure residual {self.pose.error:.0e}"
+        summary = f"equilibrium of the springs: {how}, energy {self.balance.energy:.6g}"
+        evidence = f"residual moments {self.balance.unbalanced:.0e}, loop-closure residual {self.balance.error:.0e}"
         return [f"{summary}   ({evidence})", f"joint angles: {ends}", *self._load_path(), *self._small_motions()]
 
     def __repr__(self) -> str:
-        return f"<Elastic: {numbered(len(self.path), 'pose')}, {numbered(len(self.modes or ()), 'mode')}>"
+        return f"<Elastic: {numbered(len(self.path), 'configuration')}, {numbered(len(self.modes or ()), 'mode')}>"
 
     def _load_path(self) -> list[Block]:
         if self.driver is None:
             return []
-        level = DOUBLE.zero * max(abs(float(point.pose.held[0])) for point in self.path)
+        level = DOUBLE.zero * max(abs(float(point.balance.held[0])) for point in self.path)
         step = -(-len(self.path) // _LISTED)
         rows = [self._row(point, level) for point in (*self.path[:-1:step], self.path[-1])]
         columns = ("driven (deg)", "moment", "energy", "stable", "DOF", "state")
@@ -167,13 +167,13 @@ class Elastic:
         ]
         return [*lines, *([f"stopped: {self.stopped}"] if self.stopped else [])]
 
-    def _row(self, point: PathPose, level: float) -> tuple[str, ...]:
-        moment = float(point.pose.held[0])
+    def _row(self, point: LoadPathPoint, level: float) -> tuple[str, ...]:
+        moment = float(point.balance.held[0])
         return (
-            f"{degrees(float(point.pose.angles[self._column])):.6g}",
+            f"{degrees(float(point.balance.angles[self._column])):.6g}",
             f"{moment:.6g}" if abs(moment) > level else "0",
-            f"{point.pose.energy:.6g}",
-            "yes" if point.pose.stable else "no",
+            f"{point.balance.energy:.6g}",
+            "yes" if point.balance.stable else "no",
             number_or_unknown(point.state.freedoms),
             point.state.kind,
         )
@@ -306,7 +306,7 @@ class DrivenJoint:
     to : float
         Radians, from the zero of the joint.
     frames : int
-        Poses after the first.
+        Configurations after the first.
 
     Examples
     --------
@@ -458,7 +458,7 @@ def states(
 
     Parameters
     ----------
-    mechanism : Mechanism or PosedLinkage
+    mechanism : Mechanism or Linkage
         With coordinates; of a sheet with several frames the first that has them.
     joints, links : collection of ids
         Compliant members. Joints with a stiffness are compliant too.
@@ -567,19 +567,19 @@ def _of_copies(
         assert bending is not None
         own = bending.with_springs(springs[copy])
         try:
-            pose = equilibrium(own)
-            _write_pose(table, copy, pose)
+            found = equilibrium(own)
+            _write_equilibrium(table, copy, found)
             if table.frequencies is not None and masses is not None:
-                modes = small_motions(own, pose, masses)
+                modes = small_motions(own, found, masses)
                 table.frequencies[copy] = [np.nan if mode.frequency is None else mode.frequency for mode in modes]
             if drive is not None:
-                _write_path(table, copy, _driven(own, pose, drive))
+                _write_path(table, copy, _driven(own, found, drive))
         except NumericalError as error:
             table.why[copy] = str(error)
     return table
 
 
-def _states_at_input(linkage: PosedLinkage, compliant: Sequence[Members], springs: SpringArrays) -> Iterator[State]:
+def _states_at_input(linkage: Linkage, compliant: Sequence[Members], springs: SpringArrays) -> Iterator[State]:
     """Yield the state of each copy at the input; copies with the same active members have the same."""
     known: dict[tuple[Members, Members], State] = {}
     for copy, members in enumerate(compliant):
@@ -589,18 +589,18 @@ def _states_at_input(linkage: PosedLinkage, compliant: Sequence[Members], spring
         yield known[members, active]
 
 
-def _write_pose(table: StateTable, copy: int, pose: Equilibrium) -> None:
+def _write_equilibrium(table: StateTable, copy: int, balance: Equilibrium) -> None:
     """Write an equilibrium into the row of a copy."""
-    table.angles[copy], table.energy[copy], table.stable[copy] = pose.angles, pose.energy, pose.stable
-    table.least[copy] = np.nan if pose.least is None else pose.least
-    table.unbalanced[copy], table.residuals[copy] = pose.unbalanced, pose.error
+    table.angles[copy], table.energy[copy], table.stable[copy] = balance.angles, balance.energy, balance.stable
+    table.least[copy] = np.nan if balance.least is None else balance.least
+    table.unbalanced[copy], table.residuals[copy] = balance.unbalanced, balance.error
 
 
 def _write_path(table: StateTable, copy: int, path: LoadPath) -> None:
     """Write a load path into the row of a copy."""
-    for row, pose in enumerate(path.poses):
-        table.path[copy, row], table.energies[copy, row] = pose.angles, pose.energy
-        table.moments[copy, row] = pose.held[0]
+    for row, balance in enumerate(path.equilibria):
+        table.path[copy, row], table.energies[copy, row] = balance.angles, balance.energy
+        table.moments[copy, row] = balance.held[0]
     if path.stopped:
         table.why[copy] = path.stopped
 
@@ -622,7 +622,7 @@ def _folded(at: Configuration) -> str:
 class _SpringAnalysis:
     """A linkage, its compliant members, and the springs at its joints."""
 
-    linkage: PosedLinkage
+    linkage: Linkage
     compliant: Members
     springs: Springs
 
@@ -640,40 +640,40 @@ class _SpringAnalysis:
         if self.compliant.links and drive is not None:
             raise UnsolvableError("a load path cannot have compliant links; expected compliant joints only")
         bending = ElasticLinkage(self.linkage, self.springs)
-        pose = equilibrium(bending)
-        modes = None if masses is None else tuple(small_motions(bending, pose, masses))
+        balance = equilibrium(bending)
+        modes = None if masses is None else tuple(small_motions(bending, balance, masses))
         joints = tuple(self.linkage.graph.joints)
         if drive is None:
-            return Elastic(joints, pose, modes=modes)
-        path = _driven(bending, pose, drive)
-        poses = tuple(
-            PathPose(at, state_of(moved(self.linkage, at.angles), self.compliant, self.active(at.angles)))
-            for at in path.poses
+            return Elastic(joints, balance, modes=modes)
+        path = _driven(bending, balance, drive)
+        points = tuple(
+            LoadPathPoint(at, state_of(moved(self.linkage, at.angles), self.compliant, self.active(at.angles)))
+            for at in path.equilibria
         )
         passed = tuple(self.rests_passed(bending, path))
-        return Elastic(joints, pose, drive.joint, poses, passed, path.stopped, modes)
+        return Elastic(joints, balance, drive.joint, points, passed, path.stopped, modes)
 
     def rests_passed(self, bending: ElasticLinkage, path: LoadPath) -> Iterator[RestPassed]:
         """Yield where compliant joints come to rest after the beginning."""
-        for before, after in pairwise(path.poses):
-            ends = [float(pose.angles[path.driver]) for pose in (before, after)]
+        for before, after in pairwise(path.equilibria):
+            ends = [float(balance.angles[path.driver]) for balance in (before, after)]
             for joint in self.compliant.joints:
-                was, now = (self.off_rest(joint, pose.angles) for pose in (before, after))
+                was, now = (self.off_rest(joint, balance.angles) for balance in (before, after))
                 if _is_rest(was) or (was * now > 0.0 and not _is_rest(now)):
                     continue
 
                 def off(driven: float, joint: JointId = joint, start: Floats = before.angles) -> float:
                     between = load_path(bending, start, path.driver, [driven])
-                    return self.off_rest(joint, between.poses[-1].angles)
+                    return self.off_rest(joint, between.equilibria[-1].angles)
 
                 passed = ends[1] if _is_rest(now) else brentq(off, *ends, xtol=DOUBLE.same_configuration)
                 yield RestPassed(joint, passed)
 
 
-def _driven(bending: ElasticLinkage, pose: Equilibrium, drive: DrivenJoint) -> LoadPath:
+def _driven(bending: ElasticLinkage, at: Equilibrium, drive: DrivenJoint) -> LoadPath:
     """Return the load path of a driven joint from an equilibrium."""
     [driver], goal = goals_of(tuple(bending.linkage.graph.joints), {drive.joint: drive.to}, np.finfo(float).max)
-    return load_path(bending, pose.angles, driver, np.linspace(pose.angles[driver], goal[0], drive.frames + 1)[1:])
+    return load_path(bending, at.angles, driver, np.linspace(at.angles[driver], goal[0], drive.frames + 1)[1:])
 
 
 def _is_rest(off: float) -> bool:

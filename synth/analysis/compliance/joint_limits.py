@@ -21,7 +21,7 @@ from graphs.types import JointId, LinkId
 from synth.analysis.compliance.members import NONE, Members, freedoms_text, number_or_unknown, released, state_of
 from synth.analysis.motion.closure import ClosureEquations
 from synth.analysis.motion.configuration import Configuration
-from synth.analysis.motion.linkage import PosedLinkage
+from synth.analysis.motion.linkage import Linkage
 from synth.analysis.moving._configuration_of import Movable, configuration_of
 
 _LISTED = 40
@@ -204,7 +204,7 @@ def limits(mechanism: Movable, *, keep: Collection[LinkId] = ()) -> JointLimits:
 
     Parameters
     ----------
-    mechanism : Mechanism or PosedLinkage
+    mechanism : Mechanism or Linkage
         With coordinates; of a sheet with several frames the first that has them.
     keep : collection of link ids, optional
         Links that are no ride-along's: of two four-bars with a joint in common either may be.
@@ -240,7 +240,7 @@ def limits(mechanism: Movable, *, keep: Collection[LinkId] = ()) -> JointLimits:
     return JointLimits(at, ride_alongs, truss)
 
 
-def _ride_alongs(linkage: PosedLinkage, steps: list[ReductionStep], tolerances: Tolerances) -> Iterator[RideAlong]:
+def _ride_alongs(linkage: Linkage, steps: list[ReductionStep], tolerances: Tolerances) -> Iterator[RideAlong]:
     place = {joint: number for number, joint in enumerate(linkage.graph.joints)}
     for step in steps:
         assert step.joint is not None
@@ -260,7 +260,7 @@ def _ride_alongs(linkage: PosedLinkage, steps: list[ReductionStep], tolerances: 
 
 
 def _corner(
-    linkage: PosedLinkage, places: tuple[int, int, int, int], tolerances: Tolerances
+    linkage: Linkage, places: tuple[int, int, int, int], tolerances: Tolerances
 ) -> tuple[RideAlongCorner, float]:
     """Return the corner of a joint and the three of a ride-along, and the angle of its base links, 0 to 2 pi."""
     points, axes = linkage.points[list(places)], linkage.directions[list(places)]

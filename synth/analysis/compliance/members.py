@@ -25,7 +25,7 @@ from graphs.types import Floats, Ints, JointId, LinkId
 from synth.analysis.motion.branches import MOST_JOINTS, branches_of, search_for
 from synth.analysis.motion.closure import ClosureEquations
 from synth.analysis.motion.germ import Certainty
-from synth.analysis.motion.linkage import PosedLinkage, PosedLoop
+from synth.analysis.motion.linkage import Linkage, LinkageLoop
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,7 +96,7 @@ NONE = Members()
 """No member."""
 
 
-def released(linkage: PosedLinkage, compliant: Members, active: Members) -> PosedLinkage:
+def released(linkage: Linkage, compliant: Members, active: Members) -> Linkage:
     """Return the linkage at its configuration, resting members rigid and active ones, which are compliant, released.
 
     A resting joint makes its two links one, a resting link stays as it is. An active joint turns; an active link
@@ -108,7 +108,7 @@ def released(linkage: PosedLinkage, compliant: Members, active: Members) -> Pose
     return _locked(left, held) if held else left
 
 
-def _without(linkage: PosedLinkage, gone: Collection[LinkId]) -> PosedLinkage:
+def _without(linkage: Linkage, gone: Collection[LinkId]) -> Linkage:
     """Return a linkage without some links and their joints: its loops are about them now."""
     joints = {joint: ends for joint, ends in linkage.graph.joints.items() if not (ends[0] in gone or ends[1] in gone)}
     names = list(linkage.graph.joints)
@@ -122,7 +122,7 @@ def _without(linkage: PosedLinkage, gone: Collection[LinkId]) -> PosedLinkage:
     return _restricted(linkage, graph, cycles)
 
 
-def _locked(linkage: PosedLinkage, held: Collection[JointId]) -> PosedLinkage:
+def _locked(linkage: Linkage, held: Collection[JointId]) -> Linkage:
     """Return a linkage with locked joints: their links are one; joints from a link to itself are locked too."""
     bodies = nx.utils.UnionFind(linkage.graph.nodes)
     for joint in held:
@@ -137,9 +137,7 @@ def _locked(linkage: PosedLinkage, held: Collection[JointId]) -> PosedLinkage:
     return _restricted(linkage, graph, cycles)
 
 
-def _restricted(
-    linkage: PosedLinkage, graph: SCGraph, cycles: list[tuple[list[tuple[JointId, int]], Centre]]
-) -> PosedLinkage:
+def _restricted(linkage: Linkage, graph: SCGraph, cycles: list[tuple[list[tuple[JointId, int]], Centre]]) -> Linkage:
     """Return the linkage of a smaller graph, with loops of joints and signs, those without joints left out."""
     place = {joint: column for column, joint in enumerate(linkage.graph.joints)}
     column = {joint: number for number, joint in enumerate(graph.joints)}
@@ -151,7 +149,7 @@ def _restricted(
         directions=linkage.directions[kept],
         angles=linkage.angles[kept],
         loops=tuple(
-            PosedLoop(tuple(column[joint] for joint, _ in cycle), tuple(sign for _, sign in cycle), centre)
+            LinkageLoop(tuple(column[joint] for joint, _ in cycle), tuple(sign for _, sign in cycle), centre)
             for cycle, centre in cycles
             if cycle
         ),
@@ -227,7 +225,7 @@ class State:
         }
 
 
-def state_of(linkage: PosedLinkage, compliant: Members, active: Members) -> State:
+def state_of(linkage: Linkage, compliant: Members, active: Members) -> State:
     """Return the state of a closed linkage with some of its compliant members active.
 
     Raise `UnsolvableError` if equations depend on each other and there are too many joints to search for branches.
@@ -238,7 +236,7 @@ def state_of(linkage: PosedLinkage, compliant: Members, active: Members) -> Stat
     return State(active, None if freedoms is None else freedoms + apart, certainty)
 
 
-def states_of_sets(linkage: PosedLinkage, compliant: Members) -> list[State]:
+def states_of_sets(linkage: Linkage, compliant: Members) -> list[State]:
     """Return the state for each set of active members, smaller sets first: of a few members."""
     return [state_of(linkage, compliant, active) for active in compliant.subsets()]
 
@@ -284,7 +282,7 @@ class SmallestSets:
         return {"sets": sets, "at_least": self.at_least, "complete": self.complete}
 
 
-def smallest_sets(linkage: PosedLinkage, compliant: Members) -> tuple[list[State], SmallestSets]:
+def smallest_sets(linkage: Linkage, compliant: Members) -> tuple[list[State], SmallestSets]:
     """Return states of some sets of many compliant joints, smaller ones first, and the smallest that release a motion.
 
     The states are those at rest, of the smallest sets and of these without one member, and with all active. Freedoms
@@ -302,7 +300,7 @@ def smallest_sets(linkage: PosedLinkage, compliant: Members) -> tuple[list[State
     return search.states(found), found
 
 
-def states_of(linkage: PosedLinkage, compliant: Members) -> tuple[list[State], SmallestSets | None]:
+def states_of(linkage: Linkage, compliant: Members) -> tuple[list[State], SmallestSets | None]:
     """Return the states of all sets of a few members; of many as `smallest_sets`."""
     few = len(compliant) <= ALL_SETS
     return (states_of_sets(linkage, compliant), None) if few else smallest_sets(linkage, compliant)
@@ -319,7 +317,7 @@ _TRIED = 40
 class _SetSearch:
     """A search for the smallest sets of joints, by their places among the compliant ones, that release a motion."""
 
-    def __init__(self, linkage: PosedLinkage, compliant: Members) -> None:
+    def __init__(self, linkage: Linkage, compliant: Members) -> None:
         self._linkage, self._compliant = linkage, compliant
         self._first = _FirstOrder(linkage, compliant.joints)
         self._known: dict[tuple[int, ...], State] = {}
@@ -427,7 +425,7 @@ class _FirstOrder:
     has as many rates beyond those at rest as its vectors have dependences.
     """
 
-    def __init__(self, linkage: PosedLinkage, joints: Sequence[JointId]) -> None:
+    def __init__(self, linkage: Linkage, joints: Sequence[JointId]) -> None:
         column = {joint: place for place, joint in enumerate(linkage.graph.joints)}
         places = [column[joint] for joint in joints]
         jacobian = ClosureEquations(linkage).at(linkage.angles)[1].toarray()
@@ -482,7 +480,7 @@ class _FirstOrder:
         return sorted(sets, key=lambda places: (len(places), places))
 
 
-def _freedoms(linkage: PosedLinkage) -> tuple[int | None, Certainty]:
+def _freedoms(linkage: Linkage) -> tuple[int | None, Certainty]:
     """Return the finite freedoms from a configuration, on the freest way."""
     joints = len(linkage.angles)
     closure = ClosureEquations(linkage)

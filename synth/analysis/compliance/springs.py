@@ -24,7 +24,7 @@ from graphs.tolerances import DOUBLE, leading
 from graphs.types import Floats, JointId, LinkId
 from synth.analysis.motion.branches import MOST_JOINTS, branches_of, search_for
 from synth.analysis.motion.closure import ClosureEquations, corrected, exactly_held
-from synth.analysis.motion.linkage import PosedLinkage, joints_outwards, link_motions
+from synth.analysis.motion.linkage import Linkage, joints_outwards, link_motions
 from synth.analysis.motion.path import driven_path
 
 _NUDGE = 1e-5
@@ -129,7 +129,7 @@ class Tangent(NamedTuple):
 
 
 class EnergyExpansion(NamedTuple):
-    """Energy on the closed poses beside one, to second order along n rates; `held`: moments at held joints."""
+    """Energy on the closed configurations beside one, to second order along n rates; `held`: moments at held joints."""
 
     slope: Floats
     curvature: Floats
@@ -137,17 +137,17 @@ class EnergyExpansion(NamedTuple):
 
 
 class ElasticLinkage:
-    """A linkage with springs, from a regular closed pose; `freedoms` are those of finite motion.
+    """A linkage with springs, from a regular closed configuration; `freedoms` are those of finite motion.
 
     Raise `InvariantError` for joints that do not exist, `UnsolvableError` if loops are not closed, nothing moves,
     or the configuration is singular.
     """
 
-    def __init__(self, linkage: PosedLinkage, springs: Springs) -> None:
+    def __init__(self, linkage: Linkage, springs: Springs) -> None:
         self.linkage, self.closure = linkage, ClosureEquations(linkage)
         self.closure.check_closed(linkage.angles)
         self._set(springs)
-        self.freedoms = _freedoms_of_regular_pose(linkage, self.closure)
+        self.freedoms = _freedoms_at_regular(linkage, self.closure)
 
     def with_springs(self, springs: Springs) -> "ElasticLinkage":
         """Return the same linkage with other springs."""
@@ -173,7 +173,7 @@ class ElasticLinkage:
         return np.asarray(self.stiffness * (angles - self.rest) - self.moments)
 
     def tangent(self, angles: Floats) -> Tangent:
-        """Return the closed poses beside one, to first order; raise `NumericalError` at a singular pose."""
+        """Return the closed configurations beside one, to first order; raise `NumericalError` at a singular one."""
         jacobian = self.closure.at(angles)[1].toarray()
         if not len(jacobian):
             return Tangent(jacobian, np.eye(len(angles)))
@@ -183,7 +183,7 @@ class ElasticLinkage:
         return Tangent(jacobian, parts.right[rank:].T)
 
     def expansion(self, angles: Floats, tangent: Tangent, along: Floats, held: tuple[int, ...]) -> EnergyExpansion:
-        """Return the energy on the closed poses beside one along orthonormal rates of its tangent, float[J, n].
+        """Return the energy on closed configurations beside one along orthonormal rates of its tangent, float[J, n].
 
         Joints at the places `held` do not move along the rates.
         """
@@ -202,7 +202,7 @@ class ElasticLinkage:
         return EnergyExpansion(along.T @ slopes, (curvature + curvature.T) / 2.0, np.asarray(moments + 0.0))
 
 
-def _freedoms_of_regular_pose(linkage: PosedLinkage, closure: ClosureEquations) -> int:
+def _freedoms_at_regular(linkage: Linkage, closure: ClosureEquations) -> int:
     joints = len(linkage.angles)
     if joints > MOST_JOINTS:
         raise UnsolvableError(f"springs in a linkage of {joints} joints; expected {MOST_JOINTS} joints at most")
@@ -231,7 +231,7 @@ _DOWN = 1e-4
 
 @dataclass(frozen=True, slots=True)
 class Equilibrium:
-    """A pose (angles in radians) at which springs and moments are in balance, and their energy.
+    """A configuration (angles in radians) at which springs and moments are in balance, and their energy.
 
     `held`, float[D], are the moments that keep driven joints at their angles. `least` is the least curvature of
     the energy along motions that leave driven joints where they are, per squared radian; None without such
@@ -259,16 +259,16 @@ class LoadPath:
     """
 
     driver: int
-    poses: tuple[Equilibrium, ...]
+    equilibria: tuple[Equilibrium, ...]
     stopped: str
 
 
 def equilibrium(elastic: ElasticLinkage, start: Floats | None = None, held: tuple[int, ...] = ()) -> Equilibrium:
-    """Return the equilibrium that the energy falls to from a closed pose.
+    """Return the equilibrium that the energy falls to from a closed configuration.
 
-    Newton's method on the closed poses, with the curvature made positive, and steps halved until the energy falls
+    Newton's method on closed configurations, with the curvature made positive, and steps halved until the energy falls
     as its slope predicts. The start, radians, is by default that of the linkage; joints at the places `held`
-    keep their angles. Raise `NumericalError` at a singular pose, or where balance is not reached.
+    keep their angles. Raise `NumericalError` at a singular configuration, or where balance is not reached.
     """
     angles = elastic.linkage.angles if start is None else start
     values = angles[list(held)]
@@ -287,15 +287,15 @@ def equilibrium(elastic: ElasticLinkage, start: Floats | None = None, held: tupl
 
 
 def load_path(elastic: ElasticLinkage, start: Floats, driver: int, values: npt.ArrayLike) -> LoadPath:
-    """Return the equilibria while the joint at place `driver` is driven from a closed pose to angles, radians."""
-    poses, stopped = [equilibrium(elastic, start, (driver,))], ""
+    """Return the equilibria while the joint at place `driver` is driven to angles, radians."""
+    equilibria, stopped = [equilibrium(elastic, start, (driver,))], ""
     for value in np.asarray(values, dtype=float).tolist():
-        path = driven_path(elastic.closure, poses[-1].angles, [driver], [[value]])
+        path = driven_path(elastic.closure, equilibria[-1].angles, [driver], [[value]])
         if path.stopped:
             stopped = path.stopped
             break
-        poses.append(equilibrium(elastic, path.angles[-1], (driver,)))
-    return LoadPath(driver, tuple(poses), stopped)
+        equilibria.append(equilibrium(elastic, path.angles[-1], (driver,)))
+    return LoadPath(driver, tuple(equilibria), stopped)
 
 
 def _downhill(expansion: EnergyExpansion) -> Floats:
@@ -310,19 +310,19 @@ def _downhill(expansion: EnergyExpansion) -> Floats:
 def _lower(
     elastic: ElasticLinkage, angles: Floats, step: Floats, held: tuple[tuple[int, ...], Floats], slope: Floats
 ) -> Floats:
-    """Return a closed pose along a step at which the energy is lower, held joints at their angles."""
+    """Return a closed configuration along a step at which the energy is lower, held joints at their angles."""
     places, values = held
     before = elastic.energy(angles)
     rounding = 1e-14 * (abs(before) + float(elastic.stiffness.max(initial=0.0)))
     for halving in range(_HALVINGS):
         part = 0.5**halving
-        pose = corrected(elastic.closure, angles + part * step, places)
+        closed = corrected(elastic.closure, angles + part * step, places)
         if places:
-            pose = exactly_held(elastic.closure, pose, places, values)
-        if pose.error > DOUBLE.closed or np.abs(pose.angles - angles).max() > 2.0 * _LONGEST:
+            closed = exactly_held(elastic.closure, closed, places, values)
+        if closed.error > DOUBLE.closed or np.abs(closed.angles - angles).max() > 2.0 * _LONGEST:
             continue
-        if elastic.energy(pose.angles) <= before + _DOWN * part * float(slope @ step) + rounding:
-            return pose.angles
+        if elastic.energy(closed.angles) <= before + _DOWN * part * float(slope @ step) + rounding:
+            return closed.angles
     raise NumericalError("springs found no balance: the energy falls along no step that keeps loops closed")
 
 
@@ -373,7 +373,7 @@ class Masses:
     points: tuple[Mass, ...]
     ground: LinkId | None = None
 
-    def check_links(self, linkage: PosedLinkage) -> None:
+    def check_links(self, linkage: Linkage) -> None:
         """Raise `InvariantError` for links that do not exist, and links without mass."""
         links = list(linkage.graph.nodes)
         for link in [*(mass.link for mass in self.points), *([] if self.ground is None else [self.ground])]:
@@ -420,7 +420,7 @@ def small_motions(elastic: ElasticLinkage, at: Equilibrium, masses: Masses) -> l
     return modes
 
 
-def mass_matrix(linkage: PosedLinkage, angles: Floats, masses: Masses) -> Floats:
+def mass_matrix(linkage: Linkage, angles: Floats, masses: Masses) -> Floats:
     """Return the inertia of a linkage at closed joint angles, radians: float[J, J].
 
     In mass times squared coordinate unit; half of r^T M r is the kinetic energy at joint rates r along which loops

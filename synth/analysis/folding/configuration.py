@@ -13,7 +13,7 @@ from functools import cached_property
 
 import numpy as np
 
-from graphs.answer.mechanisms import sheet_in_frame
+from graphs.answer.mobility import sheet_in_frame
 from graphs.convert.conversions import without_coordinates
 from graphs.convert.duality import SheetMechanism, mechanism_of_sheet, opened
 from graphs.errors import check_argument
@@ -37,10 +37,10 @@ from synth.analysis.folding.mending.near_mechanisms import (
 from synth.analysis.folding.panel_collisions import Collision, shapes_of_panels
 from synth.analysis.layering.counting.propagation import counted
 from synth.analysis.layering.space.orders import LayersInSpace, layers_in_space
-from synth.analysis.layering.space.planes import PosedSheet
+from synth.analysis.layering.space.planes import FoldedState
 from synth.analysis.motion.closure import ClosureEquations
 from synth.analysis.motion.configuration import EXACT, Configuration, PointPlaces, doubt_of, doubt_of_rigid
-from synth.analysis.motion.linkage import Creases, PosedLinkage, creases_of, linkage_of_sheet
+from synth.analysis.motion.linkage import Creases, Linkage, creases_of, linkage_of_sheet
 from synth.analysis.motion.path import PassedPanels, Path
 from synth.analysis.motion.walk.step import PathEvent
 
@@ -147,7 +147,7 @@ class SheetConfiguration(Configuration):
         """Return where vertices are at fold angles float[F, J], radians."""
         return PointPlaces(*vertex_places(self.sheet, self.mechanism, self.linkage, angles))
 
-    def posed(self, angles: Floats | None = None, points: Floats | None = None) -> PosedSheet:
+    def folded_state(self, angles: Floats | None = None, points: Floats | None = None) -> FoldedState:
         """Return the sheet at fold angles float[J], radians, by default its own, for the orders of its layers.
 
         Its vertices there, float[V, 3], may be handed in.
@@ -162,7 +162,7 @@ class SheetConfiguration(Configuration):
             was_open = abs(float(here[column[joint]])) < np.pi - self.tolerances.same_configuration
             if was_open or letters[joint] in "MV" or (given is not None and given[joint]):
                 signs[joint] = bool(angles[column[joint]] > 0.0)
-        return PosedSheet(
+        return FoldedState(
             self.sheet, self.mechanism, self._creases, self.precision, self.tolerances,
             self.placed(angles[None]).points[0] if points is None else points, angles, signs,
         )  # fmt: skip
@@ -194,7 +194,7 @@ class SheetConfiguration(Configuration):
         crossing: tuple[int, ...] = ()
         if not any(event.kind == "collision" for event in path.events):
             path, crossing = self.collision().among(self.closure, path, points, driver)
-        layers = layers_on_path(self.posed, self.closure, path.angles, points)
+        layers = layers_on_path(self.folded_state, self.closure, path.angles, points)
         if layers.wrong and not any(event.kind == "collision" for event in path.events):
             first = layers.wrong[0]
             event = PathEvent("collision", first, driver, (driver,), path.angles[first], panels=layers.panels)
@@ -212,7 +212,7 @@ class SheetConfiguration(Configuration):
         return Collision(shapes_of_panels(self.sheet, self.mechanism, here, self.tolerances), places)
 
 
-def _marks_of(sheet: Sheet, linkage: PosedLinkage) -> Floats:
+def _marks_of(sheet: Sheet, linkage: Linkage) -> Floats:
     """Return 1 for joints that are marked as valleys and -1 for mountains; without marks as they are folded."""
     letters = {joint: sheet.assignments[joint] for joint in linkage.graph.joints if joint < len(sheet.edges)}  # type: ignore[operator,index]
     marks = np.array([{"V": 1.0, "M": -1.0}.get(letters.get(joint, "U"), 0.0) for joint in linkage.graph.joints])
@@ -320,4 +320,4 @@ def layers_at(
         sheet = mechanism_for("layers_at", mechanism, Sheet)
         assert isinstance(sheet, Sheet)
         at = configuration_of_sheet(sheet, frame=frame, precision=precision, mend=False)
-    return layers_in_space(at.posed(), lambda problems: list(map(counted, problems)))
+    return layers_in_space(at.folded_state(), lambda problems: list(map(counted, problems)))

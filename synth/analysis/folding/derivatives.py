@@ -21,12 +21,10 @@ from graphs.mechanism.sheet import Sheet, corners_of_faces, panel_of_faces
 from graphs.types import Floats, Ints
 from synth.analysis.motion.closure import ClosureEquations
 from synth.analysis.motion.derivatives import AxisDependence, BodyPoses, BodyTree, Sensitivity, spatial
-from synth.analysis.motion.linkage import Creases, PosedLinkage, creases_of, placed_links
+from synth.analysis.motion.linkage import Creases, Linkage, creases_of, placed_links
 
 
-def vertex_places(
-    sheet: Sheet, mechanism: SheetMechanism, linkage: PosedLinkage, angles: Floats
-) -> tuple[Floats, Floats]:
+def vertex_places(sheet: Sheet, mechanism: SheetMechanism, linkage: Linkage, angles: Floats) -> tuple[Floats, Floats]:
     """Return where vertices are at fold angles float[F, J], and how far panels disagree on that.
 
     Places are float[F, vertices, 3] in the unit of the coordinates, distances float[F] in units of the extent.
@@ -73,7 +71,7 @@ def _in_blocks(blocks: Floats, columns: Ints, width: int) -> scipy.sparse.csr_ma
     return scipy.sparse.bsr_matrix((data, columns.ravel(), starts), shape=shape).tocsr()
 
 
-def dependence_on_vertices(sheet: Sheet, mechanism: SheetMechanism, linkage: PosedLinkage) -> AxisDependence:
+def dependence_on_vertices(sheet: Sheet, mechanism: SheetMechanism, linkage: Linkage) -> AxisDependence:
     """Return how the linkage of a sheet depends on the coordinates of its vertices, two or three of each."""
     if sheet.coordinates is None:
         raise UnsolvableError("derivatives by vertices need coordinates, and the sheet has none")
@@ -135,7 +133,7 @@ class SheetDerivatives:
         With coordinates, flat or folded.
     mechanism : SheetMechanism
         Of the sheet.
-    linkage : PosedLinkage
+    linkage : Linkage
         Of both.
 
     Attributes
@@ -166,7 +164,7 @@ class SheetDerivatives:
     (True, True)
     """
 
-    def __init__(self, sheet: Sheet, mechanism: SheetMechanism, linkage: PosedLinkage) -> None:
+    def __init__(self, sheet: Sheet, mechanism: SheetMechanism, linkage: Linkage) -> None:
         self.dependence = dependence_on_vertices(sheet, mechanism, linkage)
         self.linkage = linkage
         parallel = any(loop.centre is Centre.INFINITE for loop in linkage.loops)

@@ -19,7 +19,7 @@ from synth.analysis.layering.constraints import PairTable
 from synth.analysis.layering.counting.problem import LayerProblem
 from synth.analysis.layering.counting.propagation import counted
 from synth.analysis.layering.space.orders import Height, LayersInSpace, layers_of_stacked
-from synth.analysis.layering.space.planes import PlaneOfPanels, PosedSheet, StackedPanels, stacked_panels
+from synth.analysis.layering.space.planes import FoldedState, PlaneOfPanels, StackedPanels, stacked_panels
 from synth.analysis.motion.closure import ClosureEquations, corrected
 from synth.analysis.motion.path import RestingPanels
 
@@ -48,19 +48,19 @@ class LayersOnPath:
 
 
 def layers_on_path(
-    posed: Callable[[Floats, Floats | None], PosedSheet], closure: ClosureEquations, angles: Floats, points: Floats
+    state: Callable[[Floats, Floats | None], FoldedState], closure: ClosureEquations, angles: Floats, points: Floats
 ) -> LayersOnPath:
     """Return the layers in the frames of a path, of joint angles float[F, J] and vertices float[F, V, 3].
 
-    `posed` gives the sheet at angles, with its vertices or without.
+    `state` gives the sheet at angles, with its vertices or without.
     """
-    if len(angles) == 0 or len(posed(angles[0], points[0]).mechanism.panels) > _SHEET:
+    if len(angles) == 0 or len(state(angles[0], points[0]).mechanism.panels) > _SHEET:
         return LayersOnPath(None)
     wrong, panels = list[int](), tuple[int, ...]()
     resting: RestingPanels | None = None
     kept: dict[tuple[int, int], bool] = {}
     for frame, here in enumerate(angles):
-        there = posed(here, points[frame])
+        there = state(here, points[frame])
         stacked = _stacked(there)
         resting = None
         if stacked is None:
@@ -75,7 +75,7 @@ def layers_on_path(
         for other in (frame - 1, frame + 1):
             if 0 <= other < len(angles):
                 near = corrected(closure, here + _SHORTLY * (angles[other] - here))
-                heights += pairs.by_motion(posed(near.angles, None)) if near.closed else ()
+                heights += pairs.by_motion(state(near.angles, None)) if near.closed else ()
         last = frame == len(angles) - 1
         try:
             layers = layers_of_stacked(there, stacked, _count if last else _any, heights, explain=not wrong)
@@ -89,10 +89,10 @@ def layers_on_path(
     return LayersOnPath(resting, tuple(wrong), panels)
 
 
-def _stacked(posed: PosedSheet) -> StackedPanels | None:
+def _stacked(state: FoldedState) -> StackedPanels | None:
     """Return the panels that lie on each other; None where none do, or their image cannot be made."""
     try:
-        return stacked_panels(posed)
+        return stacked_panels(state)
     except NumericalError:
         return None
 
@@ -120,8 +120,8 @@ def _panels_of(layers: LayersInSpace) -> tuple[int, ...]:
 class _Pairs:
     """Pairs of plates that lie on each other: for each variable the largest cell of its region."""
 
-    def __init__(self, stacked: StackedPanels, posed: PosedSheet) -> None:
-        self.stacked, self.posed = stacked, posed
+    def __init__(self, stacked: StackedPanels, state: FoldedState) -> None:
+        self.stacked, self.state = stacked, state
         table = PairTable(stacked.image)
         cell_of = np.repeat(np.arange(len(table.sizes)), np.diff(table.first))
         order = np.lexsort((-stacked.image.areas[cell_of], table.variable))
@@ -129,7 +129,7 @@ class _Pairs:
         rows = order[first]
         self.variables, self.cells = table.variable[rows], cell_of[rows]
         self.pairs = [(int(one), int(other)) for one, other in table.panels[rows]]
-        self._touching = 4.0 * posed.tolerances.same_point * (extent_of(posed.points) or 1.0)
+        self._touching = 4.0 * state.tolerances.same_point * (extent_of(state.points) or 1.0)
 
     def as_before(self, kept: Mapping[tuple[int, int], bool]) -> Iterator[Height]:
         """Yield the heights of plates that lay on each other in the frame before."""
@@ -149,7 +149,7 @@ class _Pairs:
                 several.setdefault(pair, set()).add(value == bool(flipped[pair[0]]))
         yield from ((pair, sides.pop()) for pair, sides in several.items() if len(sides) == 1)
 
-    def by_motion(self, near: PosedSheet) -> Iterator[Height]:
+    def by_motion(self, near: FoldedState) -> Iterator[Height]:
         """Yield the heights that plates have at a configuration near this one, where they are apart."""
         motions: dict[int, tuple[Floats, Floats]] = {}
         for cell, (one, other) in zip(self.cells.tolist(), self.pairs, strict=True):
@@ -170,7 +170,7 @@ class _Pairs:
         if len(panels) == 1:
             return panels[0]
         point = shapely.Point(place)
-        faces = self.posed.mechanism.panels
+        faces = self.state.mechanism.panels
         far = [
             min(shapely.Polygon(plane.flat(self._corners(face))).distance(point) for face in faces[panel])
             for panel in panels
@@ -178,14 +178,14 @@ class _Pairs:
         return panels[int(np.argmin(far))]
 
     def _corners(self, face: int) -> Floats:
-        return self.posed.points[list(self.posed.sheet.faces[face])]
+        return self.state.points[list(self.state.sheet.faces[face])]
 
-    def _motion(self, panel: int, near: PosedSheet, known: dict[int, tuple[Floats, Floats]]) -> tuple[Floats, Floats]:
+    def _motion(self, panel: int, near: FoldedState, known: dict[int, tuple[Floats, Floats]]) -> tuple[Floats, Floats]:
         """Return how a panel moves to a configuration near this one."""
         if panel not in known:
-            faces = self.posed.mechanism.panels[panel]
-            corners = sorted({vertex for face in faces for vertex in self.posed.sheet.faces[face]})
-            known[panel] = rigid_motion(self.posed.points[corners], near.points[corners])
+            faces = self.state.mechanism.panels[panel]
+            corners = sorted({vertex for face in faces for vertex in self.state.sheet.faces[face]})
+            known[panel] = rigid_motion(self.state.points[corners], near.points[corners])
         return known[panel]
 
 

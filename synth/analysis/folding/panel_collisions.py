@@ -1,4 +1,4 @@
-"""Panels that pass through each other: found pose by pose, and how far a path leads before the first time.
+"""Panels that pass through each other: found at each configuration, and how far a path leads before the first time.
 
 Two plane convex pieces cross if each has corners on both sides of the other's plane and the stretches that they
 cut out of the line of both planes overlap. Panels that share a crease, lie on each other or touch do not cross.
@@ -23,7 +23,7 @@ from synth.analysis.motion.walk.step import PathEvent, Step
 from synth.analysis.motion.walk.walking import Event, Walk
 
 _APART = radians(3.0)
-"""Between poses that are looked at no joint turns by more."""
+"""Between configurations that are looked at no joint turns by more."""
 _REFINED = 10
 """Halvings of the way between two frames."""
 _PAIRS = 1_000_000

@@ -30,7 +30,7 @@ from synth.analysis.folding.configuration import SheetConfiguration, configurati
 from synth.analysis.motion.assigned_branch import rates_as_marked
 from synth.analysis.motion.closure import ClosureEquations
 from synth.analysis.motion.driven_motion import BranchChoice, DrivenMotion, beginning
-from synth.analysis.motion.linkage import PosedLinkage, axis_lengths
+from synth.analysis.motion.linkage import Linkage, axis_lengths
 from synth.analysis.motion.motion import Motion, motion_along
 from synth.analysis.motion.path import PathOptions, driven_path
 from synth.analysis.motion.singular.motion_near_rates import spaces_near
@@ -79,7 +79,7 @@ class _Vertex:
     outwards: Floats
 
 
-def alike_classes(sheet: Sheet, linkage: PosedLinkage, marks: Floats, tolerances: Tolerances = DOUBLE) -> list[Ints]:
+def alike_classes(sheet: Sheet, linkage: Linkage, marks: Floats, tolerances: Tolerances = DOUBLE) -> list[Ints]:
     """Return classes of creases of a flat sheet that look alike, int[J] each, those of the largest symmetry first.
 
     First those that are alike in the tessellation that the pattern is a piece of, then the orbits of all motions
@@ -98,7 +98,7 @@ def alike_classes(sheet: Sheet, linkage: PosedLinkage, marks: Floats, tolerances
     return sorted(distinct.values(), key=lambda classes: (classes.tobytes() != first, int(classes.max())))
 
 
-def _plane(sheet: Sheet, linkage: PosedLinkage, marks: Floats, tolerances: Tolerances) -> _Plane:
+def _plane(sheet: Sheet, linkage: Linkage, marks: Floats, tolerances: Tolerances) -> _Plane:
     assert sheet.coordinates is not None
     local = (in_space(sheet.coordinates) - linkage.middle) / linkage.extent
     used = sorted({vertex for face in sheet.faces for vertex in face})
@@ -113,7 +113,7 @@ def _plane(sheet: Sheet, linkage: PosedLinkage, marks: Floats, tolerances: Toler
     return _Plane(linkage.points @ across.T, linkage.directions @ across.T, marks, sides, same)
 
 
-def _vertices(plane: _Plane, linkage: PosedLinkage) -> list[_Vertex]:
+def _vertices(plane: _Plane, linkage: Linkage) -> list[_Vertex]:
     """Return the vertices about which loops close: where the lines of their creases meet."""
     vertices = []
     for loop in linkage.loops:
@@ -184,7 +184,7 @@ class AlikeClosure(ClosureEquations):
     class equal, since an inequality is an error like a loop that does not close.
     """
 
-    def __init__(self, linkage: PosedLinkage, classes: Ints) -> None:
+    def __init__(self, linkage: Linkage, classes: Ints) -> None:
         super().__init__(linkage)
         first = np.unique(classes, return_index=True)[1][np.unique(classes, return_inverse=True)[1]]
         others = np.flatnonzero(first != np.arange(self.joints))

@@ -7,7 +7,7 @@ from synth.analysis.layering.cores import CoreCondition as CoreCondition, LayerC
 from synth.analysis.layering.counting.job import LayerCountJob as LayerCountJob, numbers_of as numbers_of
 from synth.analysis.layering.counting.propagation import counted as counted
 from synth.analysis.layering.face_orders import (
-    posed_fold_text as posed_fold_text,
+    fold_text_of_layers as fold_text_of_layers,
     read_face_orders as read_face_orders,
     wishes_of as wishes_of,
 )

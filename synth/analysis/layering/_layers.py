@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from typing import overload
 
-from graphs.answer.mechanisms import sheet_in_frame
+from graphs.answer.mobility import sheet_in_frame
 from graphs.files.mechanism_like import MechanismLike, mechanism_for, with_stated_precision
 from graphs.mechanism.sheet import Sheet
 from synth.analysis.layering.counting.job import LayerCountJob, numbers_of

@@ -33,7 +33,7 @@ def folded_fold_text(answer: FlatFolding, order: LayerOrder) -> str:
     return json_text(document)
 
 
-def posed_fold_text(answer: LayersInSpace, order: LayerOrder) -> str:
+def fold_text_of_layers(answer: LayersInSpace, order: LayerOrder) -> str:
     """Return the text of a FOLD file: a sheet at a configuration, with the ``faceOrders`` of panels on each other.
 
     Parameters
@@ -55,7 +55,7 @@ def posed_fold_text(answer: LayersInSpace, order: LayerOrder) -> str:
     >>> strip = Sheet(8, ((1, 5), (2, 6)), "VM", faces, corners, fold_angles=(pi, -pi / 2))
     >>> answer = synth.layers_at(strip)
     >>> order = answer.order()
-    >>> order.face_orders(), '"faceOrders"' in posed_fold_text(answer, order)
+    >>> order.face_orders(), '"faceOrders"' in fold_text_of_layers(answer, order)
     ([(0, 1, 1)], True)
     """
     document = json.loads(fold_text(answer.sheet))

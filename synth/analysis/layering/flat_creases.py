@@ -19,7 +19,7 @@ from graphs.input_limits import check_work
 from graphs.mechanism.precision import flat_places, keeping, precision_of_sheet
 from graphs.mechanism.sheet import FLAT, HINGES, Sheet, with_all_edges
 from graphs.printing import Block, Printed, TableBlock
-from synth.analysis.layering.counting.job import Counter
+from synth.analysis.layering.counting.problem import Counter
 from synth.analysis.layering.local import FlatVertex, flat_vertices, folds_alone
 from synth.analysis.layering.orders import FlatFolding, LayerOrder, flat_folding
 

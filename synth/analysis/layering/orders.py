@@ -22,8 +22,7 @@ from graphs.types import Floats, Ints
 from synth.analysis.layering.checking import fault_of
 from synth.analysis.layering.constraints import LayerConstraints, layer_constraints
 from synth.analysis.layering.cores import LayerCore, core_lines, core_of
-from synth.analysis.layering.counting.job import Counter
-from synth.analysis.layering.counting.problem import LayerProblem, solutions
+from synth.analysis.layering.counting.problem import Counter, LayerProblem, solutions
 from synth.analysis.layering.counting.propagation import counted
 from synth.analysis.layering.image import FoldedImage, folded, image_of
 from synth.analysis.layering.local import FlatVertex, closing_points, flat_vertices

@@ -207,8 +207,8 @@ def _types(chain: SCGraph) -> list[MemberType]:
     """Return the loops of a chain with each of its joints driven."""
     names: list[JointId] = list(chain.joints)
     some = np.random.default_rng(len(names)).normal(size=(len(names), 3)).tolist()
-    posed = linkage_of_axes(chain, {joint: (axis, axis) for joint, axis in zip(names, some, strict=True)})
-    families = [family_of(posed, [joint]) for joint in names]
+    linkage = linkage_of_axes(chain, {joint: (axis, axis) for joint, axis in zip(names, some, strict=True)})
+    families = [family_of(linkage, [joint]) for joint in names]
     if len(families[0][0].joints) < len(names):
         raise UnsolvableError("the chain has a joint in no loop; expected one degree of freedom for all")
     return [type_of(family) for family, _ in families]

@@ -20,7 +20,7 @@ from synth.analysis.assembly.kernel import DIRECTION, POINT, SLIDE
 from synth.analysis.folding.configuration import SheetConfiguration
 from synth.analysis.members.member_kernel import MemberArrays, MemberType
 from synth.analysis.motion.configuration import Configuration
-from synth.analysis.motion.linkage import PosedLinkage
+from synth.analysis.motion.linkage import Linkage
 from synth.analysis.moving._configuration_of import Movable, configuration_of
 from synth.linkages.fourbar.closing import can_close
 
@@ -128,7 +128,7 @@ def batch_of(
     return _by_coordinates(at, family, array, driven)
 
 
-def _by_arcs(linkage: PosedLinkage, family: Family, parameters: Floats, given: object) -> Batch:
+def _by_arcs(linkage: Linkage, family: Family, parameters: Floats, given: object) -> Batch:
     kind = type_of(family)
     if not kind.curved.all():
         raise UnsolvableError("arcs require spherical loops: of planar ones give points")
@@ -182,7 +182,7 @@ def _columns(given: object, arcs: Arcs) -> Floats:
     return values
 
 
-def _check_bends(linkage: PosedLinkage, arcs: Arcs, values: Floats) -> None:
+def _check_bends(linkage: Linkage, arcs: Arcs, values: Floats) -> None:
     """Refuse links three of whose arcs are named: two and the angle between them are all that is free."""
     root: dict[tuple[object, JointId], tuple[object, JointId]] = {}
 
@@ -212,7 +212,7 @@ def checked_axes(joints: int, given: object) -> Floats:
     return axes
 
 
-def checked_points(linkage: PosedLinkage, given: object) -> Floats:
+def checked_points(linkage: Linkage, given: object) -> Floats:
     """Return the points of the joints of members, in units of the extent, about the middle: float[N, J, 3]."""
     points, joints = np.asarray(given, dtype=float), len(linkage.graph.joints)
     if points.ndim != 3 or points.shape[1:] != (joints, 3):
@@ -222,7 +222,7 @@ def checked_points(linkage: PosedLinkage, given: object) -> Floats:
     return np.asarray((points - linkage.middle) / linkage.extent)
 
 
-def spatial_axes(linkage: PosedLinkage, dimensions: MemberDimensions) -> tuple[Floats, Floats]:
+def spatial_axes(linkage: Linkage, dimensions: MemberDimensions) -> tuple[Floats, Floats]:
     """Return directions and points of the joints of members with spatial loops, float[N, J, 3], points in extents.
 
     What is not given is that of the linkage.
@@ -238,7 +238,7 @@ def spatial_axes(linkage: PosedLinkage, dimensions: MemberDimensions) -> tuple[F
     return np.broadcast_to(unit(axes), shape), np.broadcast_to(points, shape)
 
 
-def _by_axes(linkage: PosedLinkage, family: Family, given: object) -> Batch:
+def _by_axes(linkage: Linkage, family: Family, given: object) -> Batch:
     axes = checked_axes(len(linkage.graph.joints), given)
     kind = type_of(family)
     if not kind.curved.all():
@@ -248,7 +248,7 @@ def _by_axes(linkage: PosedLinkage, family: Family, given: object) -> Batch:
     return Batch(members, linkage.angles, np.zeros(len(axes), dtype=bool))
 
 
-def _by_points(linkage: PosedLinkage, family: Family, given: object, driven: Ints) -> Batch:
+def _by_points(linkage: Linkage, family: Family, given: object, driven: Ints) -> Batch:
     joints, points = list(linkage.graph.joints), checked_points(linkage, given)
     kind, names = type_of(family), [joints[place] for place in driven.tolist()]
     axes = np.zeros((len(points), len(kind.joint), 3))

@@ -11,7 +11,7 @@ from synth.analysis.motion.derivatives import (
 )
 from synth.analysis.motion.germ import Branch as Branch, Branches as Branches
 from synth.analysis.motion.linkage import (
-    PosedLinkage as PosedLinkage,
+    Linkage as Linkage,
     link_motions as link_motions,
     linkage_of_axes as linkage_of_axes,
     linkage_of_sheet as linkage_of_sheet,

@@ -12,7 +12,7 @@ from graphs.tolerances import DOUBLE, signed
 from graphs.types import Floats
 from synth.analysis.motion.closure import ClosureEquations
 from synth.analysis.motion.germ import Branch, Branches
-from synth.analysis.motion.linkage import PosedLinkage
+from synth.analysis.motion.linkage import Linkage
 from synth.analysis.motion.singular.sampling import rates_towards, same_part
 from synth.analysis.motion.singular.second_order import RateSpace, rates_at
 
@@ -56,9 +56,7 @@ class Disagreement(NamedTuple):
         return len(self.opposite) + len(self.immobile)
 
 
-def assigned_branch(
-    branches: Branches, linkage: PosedLinkage, marks: Floats, first: Floats | None = None
-) -> AssignedBranch:
+def assigned_branch(branches: Branches, linkage: Linkage, marks: Floats, first: Floats | None = None) -> AssignedBranch:
     """Return the branch that begins with all marked joints as they are marked, or all against it.
 
     Marks are 1 for valleys, -1 for mountains, 0 for joints without; those of a branch are looked for first from

@@ -22,7 +22,7 @@ from graphs.types import Floats, Ints
 from synth.analysis.motion.closure import ClosureEquations
 from synth.analysis.motion.flat_vertices import FlatVertices
 from synth.analysis.motion.germ import Branch, Branches, Certainty, Method, Part, product_of, signs_of
-from synth.analysis.motion.linkage import LinkagePart, PosedLinkage, part_of, parts_of
+from synth.analysis.motion.linkage import Linkage, LinkagePart, part_of, parts_of
 from synth.analysis.motion.singular import second_order
 from synth.analysis.motion.singular.complete import PointRates, has_points_only, line_of, point_rates, work_of
 from synth.analysis.motion.singular.immobile import immobile_joints, without
@@ -112,14 +112,12 @@ def search_for(joints: int, towards: Floats | None, *, more: bool = False) -> Se
     return Search(MOST_BRANCHES, MOST_WORK, follow=max(_LEAST_FOLLOWED, _FOLLOWED // max(joints, 1)), towards=towards)
 
 
-def branches_of(
-    linkage: PosedLinkage, closure: ClosureEquations | None = None, search: Search | None = None
-) -> Branches:
+def branches_of(linkage: Linkage, closure: ClosureEquations | None = None, search: Search | None = None) -> Branches:
     """Return the motion branches of a linkage from its configuration.
 
     Parameters
     ----------
-    linkage : PosedLinkage
+    linkage : Linkage
         With closed loops.
     closure : ClosureEquations, optional
         Of this linkage, if already computed.
@@ -151,7 +149,7 @@ def _branches_of_parts(parts: Sequence[LinkagePart], search: Search) -> Branches
     return product_of([Part(*part, branches) for part, branches in zip(parts, own, strict=True)])
 
 
-def _branches_beside(linkage: PosedLinkage, held: Sequence[int], search: Search) -> Branches:
+def _branches_beside(linkage: Linkage, held: Sequence[int], search: Search) -> Branches:
     """Return the branches of a linkage in which some joints are proved to be immobile: those of the others."""
     rest = without(linkage, set(held))
     numbers = set(range(len(linkage.loops))) - (set() if rest is None else set(rest.loops))
@@ -173,7 +171,7 @@ def _search_of_part(search: Search, joints: Ints, parts: int) -> Search:
     return replace(search, towards=towards, follow=follow, steps=steps, work=work)
 
 
-def _branches_of_one(branch_search: _BranchSearch, linkage: PosedLinkage, closure: ClosureEquations | None) -> Branches:
+def _branches_of_one(branch_search: _BranchSearch, linkage: Linkage, closure: ClosureEquations | None) -> Branches:
     """Return the motion branches of a linkage whose closure equations are of one part."""
     spaces, order = branch_search.spaces, branch_search.order
     if not spaces and branch_search.complete:
@@ -202,7 +200,7 @@ def _branches_of_one(branch_search: _BranchSearch, linkage: PosedLinkage, closur
     return replace(answer, total=modes.kinds, counted=modes.all)
 
 
-def all_branches_of_many(linkage: PosedLinkage, closure: ClosureEquations, towards: Floats | None) -> Branches | None:
+def all_branches_of_many(linkage: Linkage, closure: ClosureEquations, towards: Floats | None) -> Branches | None:
     """Return the motion branches of a large linkage if all are found; else None.
 
     That is where they or its rates are too many, equations are left on these, or neither a motion is found nor a proof
@@ -217,16 +215,14 @@ def all_branches_of_many(linkage: PosedLinkage, closure: ClosureEquations, towar
     return branches if branches.complete and branches.no_motion != "not known" else None
 
 
-def first_branch(
-    linkage: PosedLinkage, admitted: Callable[[Floats], bool], search: Search | None = None
-) -> Branch | None:
+def first_branch(linkage: Linkage, admitted: Callable[[Floats], bool], search: Search | None = None) -> Branch | None:
     """Return the first motion branch of a linkage that begins at admitted rates; None where there is none.
 
     Only such branches are followed, until one moves: a flat sheet may have a hundred others.
 
     Parameters
     ----------
-    linkage : PosedLinkage
+    linkage : Linkage
         With closed loops.
     admitted : callable
         Takes rates, float[J], the largest 1 or -1, zero where a joint does not begin to move; returns whether they
@@ -267,7 +263,7 @@ class _Beginning:
 class _BranchSearch:
     """A search for branches, in an order of the joints that does not depend on the file until its end."""
 
-    def __init__(self, linkage: PosedLinkage, closure: ClosureEquations | None, search: Search) -> None:
+    def __init__(self, linkage: Linkage, closure: ClosureEquations | None, search: Search) -> None:
         self._order = joint_order(linkage, search.towards)
         self._place = np.argsort(self._order)
         self.linkage = in_order(linkage, self._order)
@@ -367,13 +363,13 @@ class _BranchSearch:
         return bool(rank == self._tangent.shape[1] - free)
 
     def method(self, spaces: list[second_order.RateSpace]) -> Method:
-        """Return how branches are found at a singular pose."""
+        """Return how branches are found at a singular configuration."""
         if any(len(space.left) > 1 for space in spaces):
             return "all solutions" if self.all_rates and not self._of_one_component else "random starts"
         return "all modes" if self.vertices.linear else "second order"
 
     def full_row_rank(self) -> bool:
-        """Tell whether the closure equations are independent at the pose."""
+        """Tell whether the closure equations are independent at the configuration."""
         if self.closure.joints > second_order.MANY:
             return bool(self._stresses == 0)
         _, jacobian = self.closure.at(self.linkage.angles)
@@ -463,7 +459,7 @@ class _BranchSearch:
     def _freedoms_beside(self, rates: Floats) -> int | None:
         """Return the freedoms of the branch that begins at some rates; None where second order does not tell.
 
-        If the equations of all self-stresses have independent slopes there, the configurations beside the pose in
+        If the equations of all self-stresses have independent slopes there, the configurations beside this one in
         that direction are a manifold: the implicit function theorem, on closure equations over the square of the
         time.
         """

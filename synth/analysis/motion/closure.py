@@ -24,7 +24,7 @@ from graphs.loops.loop import Centre
 from graphs.tolerances import DOUBLE
 from graphs.types import Floats, Ints
 from synth.analysis.motion.closure_kernel import KernelEquations, KernelFactor, kernel
-from synth.analysis.motion.linkage import PosedLinkage, PosedLoop
+from synth.analysis.motion.linkage import Linkage, LinkageLoop
 from synth.analysis.motion.tangent import REGULAR, TangentSpace, largest_of
 
 _SMALL = 0.01
@@ -36,7 +36,7 @@ MOST_WHOLE = 1500
 
 @dataclass(frozen=True, slots=True)
 class _LoopGroup:
-    """Loops of one kind and length k, at the pose: joints and signs [L, k], axes and points float[L, k, 3].
+    """Loops of one kind and length k, at the configuration: joints and signs [L, k], axes and points float[L, k, 3].
 
     Frames, float[L, 3, 3], are those of loops with parallel axes: two directions across the axes, and theirs. Of
     joints that slide `turning`, float[L, k], is 0, of others 1.
@@ -147,7 +147,7 @@ class ClosureEquations:
 
     Parameters
     ----------
-    linkage : PosedLinkage
+    linkage : Linkage
 
     Attributes
     ----------
@@ -165,7 +165,7 @@ class ClosureEquations:
     (True, (6, 4))
     """
 
-    def __init__(self, linkage: PosedLinkage) -> None:
+    def __init__(self, linkage: Linkage) -> None:
         self._zero = linkage.angles
         self._groups = _grouped(linkage)
         self.joints = len(linkage.angles)
@@ -173,8 +173,8 @@ class ClosureEquations:
         self._kernel = _in_kernel(self.joints, self._groups)
         self._free: Floats | None = None
 
-    def with_axes(self, linkage: PosedLinkage) -> ClosureEquations:
-        """Return the equations of a linkage of the same joints and loops with other axes, and another pose.
+    def with_axes(self, linkage: Linkage) -> ClosureEquations:
+        """Return the equations of a linkage of the same joints and loops with other axes, and another configuration.
 
         Which loops are alike, and where entries stand in the matrix, is found once for all of them.
         """
@@ -205,7 +205,7 @@ class ClosureEquations:
     def by_axes(self, angles: Floats) -> scipy.sparse.csr_matrix:
         """Return the derivatives of the residuals by small motions of the axes: sparse float[rows, 6 J].
 
-        By a rotation w about the origin and a shift v of each axis in turn, at the pose of the linkage; joint
+        By a rotation w about the origin and a shift v of each axis in turn, at the configuration of the linkage; joint
         angles, float[J], are radians. The loops that an axis is in change as if its links were moved: exp(t x)
         becomes g exp(t x) g^-1.
         """
@@ -326,8 +326,8 @@ def carried(rotations: Floats, shifts: Floats) -> Floats:
     return adjoints
 
 
-def _grouped(linkage: PosedLinkage) -> list[_LoopGroup]:
-    kinds: dict[tuple[Centre, int], list[PosedLoop]] = {}
+def _grouped(linkage: Linkage) -> list[_LoopGroup]:
+    kinds: dict[tuple[Centre, int], list[LinkageLoop]] = {}
     for loop in linkage.loops:
         kinds.setdefault((loop.centre, len(loop.joints)), []).append(loop)
     turns = np.ones(len(linkage.angles))
@@ -400,7 +400,7 @@ class Corrected:
 
     @cached_property
     def space(self) -> TangentSpace:
-        """Rates there. A little beside a closed pose overconstrained linkages have none."""
+        """Rates there. A little beside a closed configuration overconstrained linkages have none."""
         return self.closure.space(self.entries)
 
     @property
@@ -440,19 +440,19 @@ def corrected(closure: ClosureEquations, angles: Floats, held: Sequence[int] = (
     return best
 
 
-def exactly_held(closure: ClosureEquations, pose: Corrected, held: Sequence[int], values: Floats) -> Corrected:
-    """Return a pose found with joints held, with these at `values`, radians, to the last digit.
+def exactly_held(closure: ClosureEquations, closed: Corrected, held: Sequence[int], values: Floats) -> Corrected:
+    """Return a configuration found with joints held, with these at `values`, radians, to the last digit.
 
     Newton's method keeps held joints to some digits only, and what it left in them is error of the loops.
     """
     places = list(held)
     for _ in range(_HOLDS):
-        angles = pose.angles.copy()
+        angles = closed.angles.copy()
         angles[places] = values
-        if np.array_equal(angles, pose.angles):
-            return pose
-        pose = corrected(closure, angles, held)
-    angles = pose.angles.copy()
+        if np.array_equal(angles, closed.angles):
+            return closed
+        closed = corrected(closure, angles, held)
+    angles = closed.angles.copy()
     angles[places] = values
     residual, entries = closure.evaluated(angles)
-    return Corrected(angles, largest_of(residual), pose.steps, closure, entries)
+    return Corrected(angles, largest_of(residual), closed.steps, closure, entries)

@@ -33,7 +33,7 @@ from synth.analysis.motion.assigned_branch import (
 from synth.analysis.motion.branches import MOST_JOINTS, all_branches_of_many, branches_of, search_for
 from synth.analysis.motion.closure import ClosureEquations
 from synth.analysis.motion.germ import Branch, Branches
-from synth.analysis.motion.linkage import PosedLinkage, moved, parts_of
+from synth.analysis.motion.linkage import Linkage, moved, parts_of
 from synth.analysis.motion.path import PassedPanels, Path
 from synth.analysis.motion.singular.motion_near_rates import InitialMotion, begun_near
 from synth.analysis.motion.singular.second_order import rates_at
@@ -105,10 +105,10 @@ class Configuration:
     >>> from synth.catalogue.patterns import generate
     >>> at = configuration_of(generate("bennett").mechanism)
     >>> at.linkage, at.branches.regular
-    (<PosedLinkage: 4 links, 4 joints, 1 loops>, True)
+    (<Linkage: 4 links, 4 joints, 1 loops>, True)
     """
 
-    linkage: PosedLinkage
+    linkage: Linkage
     precision: Precision
     exact: bool = True
     given: Mechanism | None = None
@@ -314,7 +314,7 @@ class Configuration:
         known = branches.exhaustive or any(branch.certainty != "not known" for branch in branches.branches)
         return not known and self.flat and self.begun.folded is not None
 
-    def _one_way_enough(self, part: PosedLinkage) -> bool:
+    def _one_way_enough(self, part: Linkage) -> bool:
         """Tell whether branches of a part are too many to list, and a folded state leads to one with the assignment."""
         loops = sum(loop.centre is Centre.FINITE and len(loop.joints) > 4 for loop in part.loops)
         if not (self.flat and len(part.angles) > _ONE_WAY and loops > _HALVES and self.marks.any()):
@@ -328,7 +328,7 @@ class Configuration:
         points = np.array([moved(linkage, one).points for one in angles]).reshape(len(angles), -1, 3)
         return PointPlaces(points * linkage.extent + linkage.middle, np.zeros(len(angles)))
 
-    def at(self, angles: Floats, points: Floats | None = None) -> Sheet | PosedLinkage:
+    def at(self, angles: Floats, points: Floats | None = None) -> Sheet | Linkage:
         """Return the mechanism at joint angles float[J], radians: a linkage, or for a sheet the sheet."""
         return moved(self.linkage, angles)
 
@@ -365,7 +365,7 @@ class Configuration:
         return f"<{type(self).__name__}: {self.linkage!r}>"
 
 
-def _has_many_flexes(linkage: PosedLinkage) -> bool:
+def _has_many_flexes(linkage: Linkage) -> bool:
     """Tell whether the equations of second order between the rates of a linkage are too large."""
     joints = len(linkage.angles)
     if joints <= _MOST_FLEXES:

@@ -22,7 +22,7 @@ from graphs.loops.loop import Centre
 from graphs.tolerances import DOUBLE
 from graphs.types import Floats, Ints, LinkId
 from synth.analysis.motion.closure import ClosureEquations, carried
-from synth.analysis.motion.linkage import PosedLinkage, joints_outwards
+from synth.analysis.motion.linkage import Linkage, joints_outwards
 from synth.analysis.motion.tangent import TangentSpace
 
 _NUDGE = 1e-4
@@ -35,14 +35,14 @@ _ALIKE = 1e-5
 
 @dataclass(frozen=True, slots=True)
 class AxisChange:
-    """A change of the axes of a linkage at its pose, or the gradient of a number by it.
+    """A change of the axes of a linkage at its configuration, or the gradient of a number by it.
 
     Attributes
     ----------
     twists : float[6 J]
         Rotation about the origin and shift of each axis in turn, in units of the extent about the middle.
     zeros : float[J]
-        Change of the angles that joints have at the pose, radians.
+        Change of the angles that joints have at the configuration, radians.
 
     Examples
     --------
@@ -184,7 +184,7 @@ class Sensitivity:
     def rank_residual(self, axes: AxisChange, change: ConfigurationChange) -> float:
         """Return by how much redundant equations cease to be so with a change of the axes, and what follows it.
 
-        Loops may stay closed to first order, and no motion be left: of a linkage at its own pose they always do.
+        Loops may stay closed to first order, and no motion be left: at a linkage's own configuration they always do.
         The number is the largest rate at which loops part, per unit of the change and of the largest joint rate;
         zero is: the change is one of mobile mechanisms.
         """
@@ -198,7 +198,7 @@ class Sensitivity:
 
 @dataclass(frozen=True)
 class AxisDependence:
-    """How the axes of a linkage at its pose change with the numbers it is made of.
+    """How the axes of a linkage at its configuration change with the numbers it is made of.
 
     Attributes
     ----------
@@ -239,15 +239,15 @@ class AxisDependence:
         return AxisDependence((self.twists @ inner).tocsr(), (self.zeros @ inner).tocsr())
 
 
-def dependence_on_axes(linkage: PosedLinkage) -> AxisDependence:
+def dependence_on_axes(linkage: Linkage) -> AxisDependence:
     """Return how a linkage depends on its axes: a point and a direction of each joint in turn, float[6 J].
 
     Points are in the unit of the coordinates, directions are unit vectors; changes along an axis or of its length
-    change nothing. Joint angles are counted from the pose.
+    change nothing. Joint angles are counted from the configuration.
 
     Parameters
     ----------
-    linkage : PosedLinkage
+    linkage : Linkage
 
     Examples
     --------
@@ -267,7 +267,7 @@ def dependence_on_axes(linkage: PosedLinkage) -> AxisDependence:
     return AxisDependence(twists.tocsr(), scipy.sparse.csr_matrix((joints, 6 * joints)))
 
 
-def spatial(linkage: PosedLinkage) -> PosedLinkage:
+def spatial(linkage: Linkage) -> Linkage:
     """Return the linkage with six equations for each loop.
 
     Loops about a centre close with three, which do not see whether axes still meet there, or are parallel. With
@@ -275,7 +275,7 @@ def spatial(linkage: PosedLinkage) -> PosedLinkage:
 
     Parameters
     ----------
-    linkage : PosedLinkage
+    linkage : Linkage
 
     Examples
     --------
@@ -364,7 +364,7 @@ class BodyTree:
 
     Parameters
     ----------
-    linkage : PosedLinkage
+    linkage : Linkage
     ground : link, optional
         The fixed link; by default the first. Of a linkage in several parts, each has one.
 
@@ -383,7 +383,7 @@ class BodyTree:
     [[0.0, 1.0, 0.0]]
     """
 
-    def __init__(self, linkage: PosedLinkage, ground: LinkId | None = None) -> None:
+    def __init__(self, linkage: Linkage, ground: LinkId | None = None) -> None:
         self.linkage = linkage
         self.row = {link: row for row, link in enumerate(linkage.graph.nodes)}
         level = dict.fromkeys(linkage.graph.nodes, 0)
@@ -415,7 +415,7 @@ class BodyTree:
 
 @dataclass(frozen=True, slots=True)
 class BodyPoses:
-    """Links at a configuration, as rigid motions from the pose of the linkage.
+    """Links at a configuration, as rigid motions from the configuration of the linkage.
 
     Twists of links are (w, v), rotation about the origin and shift, where the links now are; places are in units
     of the extent, about the middle. A point x of a link comes to R x + t, with R of `rotations` and t of `shifts`.
@@ -483,13 +483,13 @@ class BodyPoses:
         return np.asarray(np.einsum("nij,nj->ni", self.rotations[links], points) + self.shifts[links])
 
     def places_forward(self, links: Ints, points: Floats, twists: Floats, changes: Floats) -> Floats:
-        """Return how places change, float[N, 3], with twists of links and changes of the points at the pose."""
+        """Return how places change, float[N, 3], with twists of links and changes of the points of the linkage."""
         there, twist = self.places(links, points), twists[links]
         own = np.einsum("nij,nj->ni", self.rotations[links], changes)
         return np.asarray(np.cross(twist[:, :3], there) + twist[:, 3:] + own)
 
     def places_adjoint(self, links: Ints, points: Floats, by_places: Floats) -> tuple[Floats, Floats]:
-        """Return the gradients by twists of links, float[L, 6], and by the points at the pose, float[N, 3]."""
+        """Return the gradients by twists of links, float[L, 6], and by the points at the configuration, float[N, 3]."""
         there = self.places(links, points)
         wrenches = np.zeros((len(self.shifts), 6))
         np.add.at(wrenches, links, np.concatenate([np.cross(there, by_places), by_places], axis=1))

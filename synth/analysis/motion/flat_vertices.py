@@ -12,7 +12,7 @@ from graphs.geometry import lines_meet, sectors, unit
 from graphs.loops.loop import Centre
 from graphs.tolerances import DOUBLE, MARGIN
 from graphs.types import Floats, Ints
-from synth.analysis.motion.linkage import PosedLinkage, PosedLoop
+from synth.analysis.motion.linkage import Linkage, LinkageLoop
 
 
 class FlatVertices:
@@ -23,7 +23,7 @@ class FlatVertices:
     mode.
     """
 
-    def __init__(self, linkage: PosedLinkage) -> None:
+    def __init__(self, linkage: Linkage) -> None:
         self._loops = linkage.loops
         self._ways: list[Floats | None] = []
         flat = [np.abs(linkage.angles).max(initial=0.0) <= DOUBLE.parallel]
@@ -41,7 +41,7 @@ class FlatVertices:
         return tuple(_mode(loop, ways, rates) for loop, ways in zip(self._loops, self._ways, strict=True))
 
 
-def _mode(loop: PosedLoop, ways: Floats | None, rates: Floats) -> tuple[int, int] | None:
+def _mode(loop: LinkageLoop, ways: Floats | None, rates: Floats) -> tuple[int, int] | None:
     if ways is None:
         return None
     folds = rates[list(loop.joints)] * ways
@@ -51,7 +51,7 @@ def _mode(loop: PosedLoop, ways: Floats | None, rates: Floats) -> tuple[int, int
     return (first, second) if alike[same] > DOUBLE.zero_rate**2 else None
 
 
-def _outward(linkage: PosedLinkage, loop: PosedLoop) -> Floats | None:
+def _outward(linkage: Linkage, loop: LinkageLoop) -> Floats | None:
     """Return the directions of four creases away from a flat vertex: float[4, 3]; None of other loops."""
     joints = list(loop.joints)
     if loop.centre is not Centre.FINITE or len(joints) != 4:
@@ -64,7 +64,7 @@ def _outward(linkage: PosedLinkage, loop: PosedLoop) -> Floats | None:
     return outward if abs(sectors(outward).sum() - 2 * pi) <= DOUBLE.parallel else None
 
 
-def straight_folds(linkage: PosedLinkage) -> tuple[Ints, ...]:
+def straight_folds(linkage: Linkage) -> tuple[Ints, ...]:
     """Return for each family of parallel lines along which a flat sheet folds straight the line of each joint, int[J].
 
     It is -1 for joints that are on none. A line is of creases that go on straight at every vertex, and beyond holes;

@@ -18,7 +18,7 @@ import numpy as np
 
 from graphs.tolerances import DOUBLE
 from graphs.types import Floats, Ints, JointId
-from synth.analysis.motion.linkage import PosedLinkage
+from synth.analysis.motion.linkage import Linkage
 from synth.analysis.motion.singular.second_order import Quadric, RateSpace, Rigidity
 
 Certainty = Literal["proved", "numerical", "not known"]
@@ -119,7 +119,7 @@ class Part:
 
     joints: Ints
     loops: tuple[int, ...]
-    linkage: PosedLinkage
+    linkage: Linkage
     branches: Branches
 
     @property

@@ -27,8 +27,8 @@ from graphs.types import Floats, Ints, JointId, LinkId
 
 
 @dataclass(frozen=True, slots=True)
-class PosedLoop:
-    """A loop of a linkage at a pose: places of its joints in loop order, and the centre of their axes.
+class LinkageLoop:
+    """A loop of a linkage at a configuration: places of its joints in loop order, and the centre of their axes.
 
     A sign is 1 where the loop goes from a joint's first link to its second.
     """
@@ -39,7 +39,7 @@ class PosedLoop:
 
 
 @dataclass(frozen=True, slots=True, repr=False)
-class PosedLinkage:
+class Linkage:
     """Links and joint axes in space.
 
     Attributes
@@ -51,8 +51,8 @@ class PosedLinkage:
     directions : float[J, 3]
         Unit vectors. A positive angle turns the second link of a joint against the first, right-handed.
     angles : float[J]
-        Joint angles at the pose, radians.
-    loops : tuple of PosedLoop
+        Joint angles at the configuration, radians.
+    loops : tuple of LinkageLoop
         A basis of the cycles.
     extent : float
         Unit of length of the points, in that of the coordinates.
@@ -67,18 +67,18 @@ class PosedLinkage:
     points: Floats
     directions: Floats
     angles: Floats
-    loops: tuple[PosedLoop, ...]
+    loops: tuple[LinkageLoop, ...]
     extent: float
     middle: Floats
     slides: tuple[int, ...] = ()
 
     def __repr__(self) -> str:
-        return f"<PosedLinkage: {len(self.graph)} links, {len(self.graph.joints)} joints, {len(self.loops)} loops>"
+        return f"<Linkage: {len(self.graph)} links, {len(self.graph.joints)} joints, {len(self.loops)} loops>"
 
 
 def linkage_of_axes(
     graph: SCGraph, axes: Mapping[JointId, tuple[Sequence[float], Sequence[float]]], *, slides: Collection[JointId] = ()
-) -> PosedLinkage:
+) -> Linkage:
     """Return a linkage with joint axes in space.
 
     Loops that the graph gives a centre close about it; all others close with six equations.
@@ -101,7 +101,7 @@ def linkage_of_axes(
     >>> square = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)])
     >>> corners = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)]
     >>> linkage_of_axes(square, {joint: (corners[joint], (0, 0, 2)) for joint in range(4)})
-    <PosedLinkage: 4 links, 4 joints, 1 loops>
+    <Linkage: 4 links, 4 joints, 1 loops>
     """
     for joint in graph.joints:
         if joint not in axes:
@@ -111,12 +111,10 @@ def linkage_of_axes(
     points = np.array([axes[joint][0] for joint in graph.joints], dtype=float).reshape(-1, 3)
     directions = np.array([axes[joint][1] for joint in graph.joints], dtype=float).reshape(-1, 3)
     places = tuple(place for place, joint in enumerate(graph.joints) if joint in slides)
-    return replace(_posed(graph, points, unit(directions), np.zeros(len(points)), points), slides=places)
+    return replace(_linkage(graph, points, unit(directions), np.zeros(len(points)), points), slides=places)
 
 
-def linkage_of_sheet(
-    sheet: Sheet, mechanism: SheetMechanism | None = None, tolerances: Tolerances = DOUBLE
-) -> PosedLinkage:
+def linkage_of_sheet(sheet: Sheet, mechanism: SheetMechanism | None = None, tolerances: Tolerances = DOUBLE) -> Linkage:
     """Return the linkage of a crease pattern in its configuration: panels are links, creases are joints.
 
     Joint angles are fold angles. Where panels lie on each other, the fold angles of the file say to which side, or
@@ -167,10 +165,10 @@ def linkage_of_sheet(
         marks = _marks(sheet)
         marked = np.array([marks.get((min(a, b), max(a, b)), 0.0) for a, b in edges.tolist()])
         angles = np.where(on_each_other & (marked != 0.0), np.copysign(np.pi, marked), angles)
-    return _posed(dual.sc, corners[edges].mean(axis=1), directions, angles, corners)
+    return _linkage(dual.sc, corners[edges].mean(axis=1), directions, angles, corners)
 
 
-def centre_of(linkage: PosedLinkage, loop: PosedLoop, tolerances: Tolerances = DOUBLE) -> Centre:
+def centre_of(linkage: Linkage, loop: LinkageLoop, tolerances: Tolerances = DOUBLE) -> Centre:
     """Return the centre of a loop: where it is not declared, by its axes, which meet or are parallel as drawn."""
     if loop.centre is not Centre.NONE:
         return loop.centre
@@ -191,10 +189,10 @@ class LinkagePart(NamedTuple):
 
     joints: Ints
     loops: tuple[int, ...]
-    linkage: PosedLinkage
+    linkage: Linkage
 
 
-def parts_of(linkage: PosedLinkage) -> list[LinkagePart]:
+def parts_of(linkage: Linkage) -> list[LinkagePart]:
     """Return the parts of a linkage whose loops share no joint, and last the joints in no loop, if there are several.
 
     Loops that share a link alone do not constrain each other: closure equations are about joints. One part is
@@ -202,7 +200,7 @@ def parts_of(linkage: PosedLinkage) -> list[LinkagePart]:
 
     Parameters
     ----------
-    linkage : PosedLinkage
+    linkage : Linkage
 
     Examples
     --------
@@ -230,12 +228,12 @@ def parts_of(linkage: PosedLinkage) -> list[LinkagePart]:
     return [part_of(linkage, group, loops) for group, loops in zip(groups, loops_of, strict=True)]
 
 
-def part_of(linkage: PosedLinkage, group: Sequence[int], loops: Sequence[int]) -> LinkagePart:
+def part_of(linkage: Linkage, group: Sequence[int], loops: Sequence[int]) -> LinkagePart:
     """Return some joints with some loops that pass no others, by their places, as a linkage of its own."""
     joints, names = np.array(group), list(linkage.graph.joints)
     place = {joint: own for own, joint in enumerate(group)}
     of_loops = [linkage.loops[loop] for loop in loops]
-    posed = tuple(replace(loop, joints=tuple(map(place.__getitem__, loop.joints))) for loop in of_loops)
+    renumbered = tuple(replace(loop, joints=tuple(map(place.__getitem__, loop.joints))) for loop in of_loops)
     pairs = {names[joint]: linkage.graph.joints[names[joint]] for joint in group}
     moving = {link for pair in pairs.values() for link in pair}
     alone = replace(
@@ -244,13 +242,13 @@ def part_of(linkage: PosedLinkage, group: Sequence[int], loops: Sequence[int]) -
         points=linkage.points[joints],
         directions=linkage.directions[joints],
         angles=linkage.angles[joints],
-        loops=posed,
+        loops=renumbered,
         slides=tuple(place[joint] for joint in linkage.slides if joint in place),
     )
     return LinkagePart(joints, tuple(loops), alone)
 
 
-def axis_lengths(linkage: PosedLinkage) -> Floats:
+def axis_lengths(linkage: Linkage) -> Floats:
     """Return the lengths, in extents, by which axes are known: of creases from their vertex, of others 1."""
     lengths = np.ones(len(linkage.angles))
     for loop in linkage.loops:
@@ -262,15 +260,15 @@ def axis_lengths(linkage: PosedLinkage) -> Floats:
     return lengths
 
 
-def _posed(graph: SCGraph, points: Floats, directions: Floats, angles: Floats, all_points: Floats) -> PosedLinkage:
+def _linkage(graph: SCGraph, points: Floats, directions: Floats, angles: Floats, all_points: Floats) -> Linkage:
     column = {joint: place for place, joint in enumerate(graph.joints)}
     loops = []
     for loop in independent_cycles(graph):
         order, signs = zip(*signed_cycle(loop.joints, graph.joints), strict=True)
-        loops.append(PosedLoop(tuple(map(column.__getitem__, order)), signs, loop.centre))
+        loops.append(LinkageLoop(tuple(map(column.__getitem__, order)), signs, loop.centre))
     middle = all_points.mean(axis=0) if len(all_points) else np.zeros(3)
     extent = extent_of(all_points) or 1.0
-    return PosedLinkage(graph, (points - middle) / extent, directions, angles, tuple(loops), extent, middle)
+    return Linkage(graph, (points - middle) / extent, directions, angles, tuple(loops), extent, middle)
 
 
 @dataclass(frozen=True, slots=True)
@@ -352,16 +350,14 @@ def _marks(sheet: Sheet) -> dict[tuple[int, int], float]:
     return marks
 
 
-def link_motions(
-    linkage: PosedLinkage, angles: Floats, ground: LinkId | None = None
-) -> dict[LinkId, tuple[Floats, Floats]]:
-    """Return how each link has moved from the pose, along a tree of joints from a link that stays.
+def link_motions(linkage: Linkage, angles: Floats, ground: LinkId | None = None) -> dict[LinkId, tuple[Floats, Floats]]:
+    """Return how each link has moved from the configuration, along a tree of joints from a link that stays.
 
     Parameters
     ----------
-    linkage : PosedLinkage
+    linkage : Linkage
     angles : float[F, J]
-        Joint angles of many poses, radians.
+        Joint angles of many configurations, radians.
     ground : link, optional
         The link that stays; by default the first. Of a linkage in several parts, each has one.
 
@@ -382,7 +378,7 @@ def link_motions(
     return {link: (rotations_of[:, place], shifts[:, place]) for place, link in enumerate(linkage.graph.nodes)}
 
 
-def placed_links(linkage: PosedLinkage, angles: Floats, ground: LinkId | None = None) -> tuple[Floats, Floats]:
+def placed_links(linkage: Linkage, angles: Floats, ground: LinkId | None = None) -> tuple[Floats, Floats]:
     """Return the motions of `link_motions` as arrays, links in order: float[F, N, 3, 3] and float[F, N, 3]."""
     number = {link: place for place, link in enumerate(linkage.graph.nodes)}
     carried = list(joints_outwards(linkage, ground))
@@ -410,7 +406,7 @@ def placed_links(linkage: PosedLinkage, angles: Floats, ground: LinkId | None = 
     return rotation, shift
 
 
-def joints_outwards(linkage: PosedLinkage, ground: LinkId | None = None) -> Iterator[tuple[LinkId, LinkId, int, float]]:
+def joints_outwards(linkage: Linkage, ground: LinkId | None = None) -> Iterator[tuple[LinkId, LinkId, int, float]]:
     """Yield from the fixed link outwards: a link, the one it carries, the place of their joint, and its sense."""
     graph = linkage.graph
     column = {joint: place for place, joint in enumerate(graph.joints)}
@@ -432,8 +428,8 @@ def joints_outwards(linkage: PosedLinkage, ground: LinkId | None = None) -> Iter
                     yield near, far, column[joint], 1.0 if graph.joints[joint][0] == near else -1.0
 
 
-def moved(linkage: PosedLinkage, angles: Floats) -> PosedLinkage:
-    """Return the linkage with its axes where they are at joint angles float[J], radians: its pose is that one."""
+def moved(linkage: Linkage, angles: Floats) -> Linkage:
+    """Return the linkage with its axes where they are at joint angles float[J], radians: that is its configuration."""
     number = {link: place for place, link in enumerate(linkage.graph.nodes)}
     first = [number[link] for link, _ in linkage.graph.joints.values()]
     rotation, shift = (part[0, first] for part in placed_links(linkage, angles[None]))

@@ -19,7 +19,7 @@ from synth.analysis.motion.closure import corrected
 from synth.analysis.motion.configuration import Configuration, listed
 from synth.analysis.motion.driven_motion import DrivenMotion, MotionOptions, driven_from
 from synth.analysis.motion.germ import Branch, Branches, Method
-from synth.analysis.motion.linkage import PosedLinkage, link_motions, moved
+from synth.analysis.motion.linkage import Linkage, link_motions, moved
 from synth.analysis.motion.path import Path, RestingPanels
 
 FRAMES = 20
@@ -78,7 +78,7 @@ class Motion(Printed):
     resting: RestingPanels | None = None
 
     @property
-    def linkage(self) -> PosedLinkage:
+    def linkage(self) -> Linkage:
         """Links and axes where it began."""
         return self.configuration.linkage
 
@@ -107,7 +107,7 @@ class Motion(Printed):
         """The largest loop-closure residual of all frames."""
         return self.path.error
 
-    def frames(self) -> Sequence[Sheet] | Sequence[PosedLinkage]:
+    def frames(self) -> Sequence[Sheet] | Sequence[Linkage]:
         """Return the mechanism in each frame, all of one kind: sheets with fold angles (`SheetMotion`), or linkages."""
         return [moved(self.linkage, angles) for angles in self.path.angles]
 

@@ -3,15 +3,17 @@
 Theory: docs/theory/moving.md.
 """
 
+from __future__ import annotations
+
 from collections.abc import Hashable, Mapping, Sequence
 from itertools import combinations, pairwise
 from pathlib import Path
-from typing import Any, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import networkx as nx
 import numpy as np
 
-from graphs.answer.mechanisms import precision_of_steps
+from graphs.answer.mobility import precision_of_steps
 from graphs.convert.conversions import Mechanism, to_sheet, without_coordinates
 from graphs.errors import InvariantError, UnsolvableError, numbered, shown
 from graphs.files.formats import read
@@ -21,6 +23,7 @@ from graphs.joints.centres import centred_by_axes
 from graphs.joints.linkage import JointedLinkage, JointKind
 from graphs.joints.revolutes import revolutes_of
 from graphs.loops.loop import Centre, Loop
+from graphs.mechanism.closed_form import ClosedFormLinkage
 from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.precision import Precision, precision_of, stated
 from graphs.mechanism.sc import SCGraph
@@ -33,13 +36,13 @@ from graphs.types import Floats, JointId
 from synth.analysis.folding.configuration import configuration_of_sheet
 from synth.analysis.motion.closure import ClosureEquations
 from synth.analysis.motion.configuration import EXACT, Configuration
-from synth.analysis.motion.linkage import PosedLinkage, linkage_of_axes
-from synth.linkages.conformed.linkage_behaviour import OnSurface, linkage_on_surfaces
-from synth.linkages.guidance.fourbars import GuidedFourBar
-from synth.linkages.guidance.orientations import Orientations
+from synth.analysis.motion.linkage import Linkage, linkage_of_axes
+
+if TYPE_CHECKING:
+    from synth.linkages.guidance.orientations import Orientations
 
 
-def linkage_of_rods(model: PolyhedronModel) -> PosedLinkage:
+def linkage_of_rods(model: PolyhedronModel) -> Linkage:
     """Return the linkage of hinges that moves as the rods of a polyhedron model do.
 
     A rod may turn about itself, which says nothing of the model. So the rods are joined along a tree, and there
@@ -183,7 +186,7 @@ def _across(first: Floats, second: Floats, parallel: float) -> Floats:
     return np.stack([unit(normal), np.cross(second, unit(normal))])
 
 
-Movable: TypeAlias = Configuration | PosedLinkage | MechanismLike | GuidedFourBar | OnSurface
+Movable: TypeAlias = Configuration | Linkage | MechanismLike | ClosedFormLinkage
 """A configuration, or a mechanism with coordinates, or its file."""
 
 _EXACTLY = Precision(0.0, "exact")
@@ -205,7 +208,7 @@ def configuration_of(
 
     Parameters
     ----------
-    mechanism : Mechanism, str, Path, Configuration, PosedLinkage, OnSurface or GuidedFourBar
+    mechanism : Mechanism, str, Path, Configuration, Linkage, OnSurface or GuidedFourBar
         A model that knows its links is a sheet of panels, else its rods are links. A linkage on a surface lies
         there, a guided four-bar takes the first of its orientations. A Configuration is returned as it is.
     orientations : Orientations, optional
@@ -235,13 +238,13 @@ def configuration_of(
     >>> ring = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop(range(4), "infinite")])
     >>> corners = [(0, 0, 0), (2, 0, 0), (2, 1, 0), (0, 1, 0)]
     >>> configuration_of(HingedSolids(ring, {joint: (corner, (0, 0, 1)) for joint, corner in enumerate(corners)}))
-    <Configuration: <PosedLinkage: 4 links, 4 joints, 1 loops>>
+    <Configuration: <Linkage: 4 links, 4 joints, 1 loops>>
     """
     if isinstance(mechanism, str | Path | nx.Graph):
         mechanism = read(mechanism)
     if isinstance(mechanism, Configuration):
         return mechanism
-    if isinstance(mechanism, PosedLinkage):
+    if isinstance(mechanism, Linkage):
         ClosureEquations(mechanism).check_closed(mechanism.angles)
         return Configuration(mechanism, _EXACTLY)
     if isinstance(mechanism, Sheet) or (frame is None and isinstance(mechanism, PolyhedronModel)):
@@ -260,9 +263,7 @@ def configuration_of(
     return Configuration(linkage, written, written.size <= EXACT, given)
 
 
-def _made(
-    mechanism: Movable, orientations: Orientations | None, length: float | None
-) -> tuple[PosedLinkage, Precision]:
+def _made(mechanism: Movable, orientations: Orientations | None, length: float | None) -> tuple[Linkage, Precision]:
     """Return the linkage that a mechanism without panels is, and how precise its coordinates are."""
     if isinstance(mechanism, PolyhedronModel):
         return linkage_of_rods(mechanism), precision_of(list(mechanism.coordinates.values()))
@@ -270,15 +271,12 @@ def _made(
         mechanism = revolutes_of(mechanism)
     if isinstance(mechanism, HingedSolids):
         return _of_axes(mechanism.chain, mechanism.axes, length)
-    if isinstance(mechanism, OnSurface):
-        return posed_on_surface(mechanism), _EXACTLY
+    if isinstance(mechanism, ClosedFormLinkage):
+        body = None if orientations is None else orientations.matrices[0]
+        return linkage_of_closed_form(mechanism, body), _EXACTLY
     if isinstance(mechanism, SurfaceLinkage):
         precision = _EXACTLY if mechanism.steps is None else precision_of_steps(mechanism)
-        return posed_on_surface(_the_one(linkage_on_surfaces(mechanism), mechanism.kind)), precision
-    if isinstance(mechanism, GuidedFourBar):
-        if orientations is None:
-            raise UnsolvableError("a guided four-bar has its moving axes in the body; expected its orientations")
-        return _of_guided(mechanism, orientations.matrices[0]), _EXACTLY
+        return linkage_of_closed_form(_on_its_surface(mechanism)), precision
     raise without_coordinates(mechanism)
 
 
@@ -300,7 +298,7 @@ def _precision_of_axes(axes: Mapping[JointId, Axis]) -> Precision:
     return max(both, key=lambda precision: precision.size)
 
 
-def _with_slides(mechanism: JointedLinkage, length: float | None) -> tuple[PosedLinkage, Precision]:
+def _with_slides(mechanism: JointedLinkage, length: float | None) -> tuple[Linkage, Precision]:
     """Return a linkage of revolute and prismatic joints, and how precise its coordinates are."""
     axes = {joint: (place.point, place.axes[0]) for joint, place in mechanism.places.items()}
     if not axes:
@@ -311,7 +309,7 @@ def _with_slides(mechanism: JointedLinkage, length: float | None) -> tuple[Posed
 
 def _of_axes(
     chain: SCGraph, axes: Mapping[JointId, Axis], length: float | None, slides: Sequence[JointId] = ()
-) -> tuple[PosedLinkage, Precision]:
+) -> tuple[Linkage, Precision]:
     """Return a linkage by its axes, its loops spherical or planar where these say so within their precision."""
     written = _precision_of_axes(axes)
     given = linkage_of_axes(chain, axes, slides=slides)
@@ -331,60 +329,49 @@ def sheet_of(mechanism: Mechanism) -> Sheet | None:
     return None if more or mechanism.ground is not None else to_sheet(mechanism)
 
 
-def posed_on_surface(linkage: OnSurface) -> PosedLinkage:
-    """Return a linkage on a surface at its conformed position, in the frame of `graphs.mechanism.surfaces`.
+def linkage_of_closed_form(linkage: ClosedFormLinkage, body: Floats | None = None) -> Linkage:
+    """Return a linkage of closed form where it lies: on a surface, in the frame of `graphs.mechanism.surfaces`.
 
     All axes of a cone pass through its apex, so all loops have their centre there, whatever the chain says; those
     of a cylinder are parallel.
 
     Parameters
     ----------
-    linkage : OnSurface
+    linkage : ClosedFormLinkage
+        An OnSurface or a GuidedFourBar, say.
+    body : float[3, 3], optional
+        The orientation of a guided body.
 
     Raises
     ------
     UnsolvableError
-        If its surface is not known.
+        If its surface is not known, or the orientation of the body that it guides.
 
     Examples
     --------
     >>> from synth.linkages.conformed.linkage_behaviour import loop_on_cones
     >>> first, _ = loop_on_cones(np.radians([120, 95, 45, 85]))
-    >>> posed_on_surface(first)
-    <PosedLinkage: 4 links, 4 joints, 1 loops>
+    >>> linkage_of_closed_form(first)
+    <Linkage: 4 links, 4 joints, 1 loops>
     """
-    if linkage.surface is None:
-        raise UnsolvableError("the linkage fits any cone or cylinder; expected a cone angle or a radius")
-    points, directions = linkage.surface.axes(linkage.places)
-    return _with_one_centre(linkage.chain, points, directions, linkage.surface.centre)
+    chain, points, directions, centre = linkage.placed_chain(body)
+    about_it = chain.with_loops([Loop(loop.joints, centre) for loop in independent_cycles(chain)])
+    lines = zip(chain.joints, zip(points.tolist(), directions.tolist(), strict=True), strict=True)
+    return linkage_of_axes(about_it, dict(lines))
 
 
-def _the_one(on_surfaces: Sequence[OnSurface], kind: str) -> OnSurface:
+def _on_its_surface(linkage: SurfaceLinkage) -> ClosedFormLinkage:
+    # Surfaces are looked for here alone: a question about a sheet does not load the linkages of closed form.
+    from synth.linkages.conformed.linkage_behaviour import linkage_on_surfaces
+
+    on_surfaces, kind = linkage_on_surfaces(linkage), linkage.kind
     if len(on_surfaces) != 1:
         surfaces, command = numbered(len(on_surfaces), kind), f"synth {kind} map --{kind} K -o one.json"
         raise UnsolvableError(f"the linkage lies on {surfaces}; expected 1; try {command}")
     return on_surfaces[0]
 
 
-def _of_guided(four_bar: GuidedFourBar, body: Floats) -> PosedLinkage:
-    """Return the joints O (driver, fixed), A and B (on the body) and C of a guided four-bar."""
-    driver, follower = four_bar.driver, four_bar.follower
-    ring = SCGraph(("ground", "driver", "body", "follower"), {
-        "O": ("ground", "driver"), "A": ("driver", "body"), "B": ("body", "follower"), "C": ("follower", "ground"),
-    }, ground="ground")  # fmt: skip
-    moving = (body @ driver.moving, body @ follower.moving)
-    directions = np.array([driver.fixed, *moving, follower.fixed])
-    return _with_one_centre(ring, np.zeros_like(directions), directions, Centre.FINITE)
-
-
-def _with_one_centre(chain: SCGraph, points: Floats, directions: Floats, centre: Centre) -> PosedLinkage:
-    """Return a linkage whose axes all meet in a point, or are all parallel."""
-    about_it = chain.with_loops([Loop(loop.joints, centre) for loop in independent_cycles(chain)])
-    lines = zip(chain.joints, zip(points.tolist(), directions.tolist(), strict=True), strict=True)
-    return linkage_of_axes(about_it, dict(lines))
-
-
-def _with_centres(linkage: PosedLinkage, declared: int) -> PosedLinkage:
+def _with_centres(linkage: Linkage, declared: int) -> Linkage:
     """Refuse declared loops whose axes do not meet as their centre says: three equations would not close them."""
     for loop in linkage.loops[:declared]:
         points, axes = linkage.points[list(loop.joints)], linkage.directions[list(loop.joints)]

@@ -16,14 +16,14 @@ from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.solids import Axis
 from graphs.types import JointId, LinkId
-from synth.analysis.motion.linkage import PosedLinkage, linkage_of_axes
+from synth.analysis.motion.linkage import Linkage, linkage_of_axes
 
 
 @dataclass(frozen=True, slots=True)
 class SerialLinkage:
     """A linkage of revolutes and slides in a row for each joint: `joint_of` names the joint of each element."""
 
-    linkage: PosedLinkage
+    linkage: Linkage
     joint_of: dict[JointId, JointId]
 
 

@@ -142,16 +142,16 @@ def table_text(mechanism: Mechanism, which: str) -> tuple[str, tuple[str, ...]]:
         raise InvariantError("table", f"there is no table {shown(which)}", ", ".join(TABLES))
     columns, rows, lost = TABLES[which]
     sheet = sheet_of(mechanism)
-    poses, left_out = ([mechanism], 0) if sheet is None else poses_of_file(sheet)[::2]
+    frames, left_out = ([mechanism], 0) if sheet is None else configurations_of_file(sheet)[::2]
     stream = StringIO()
     writer = csv.writer(stream, lineterminator="\n")
     writer.writerow(columns)
-    for number, pose in enumerate(poses):
-        writer.writerows((number, *row) for row in rows(pose))
+    for number, frame in enumerate(frames):
+        writer.writerows((number, *row) for row in rows(frame))
     return stream.getvalue(), (lost, *((numbered(left_out, "other frame"),) if left_out else ()))
 
 
-class FilePoses(NamedTuple):
+class FileConfigurations(NamedTuple):
     """The configurations of a sheet in its file, in the order of their motion.
 
     Attributes
@@ -165,7 +165,7 @@ class FilePoses(NamedTuple):
     Examples
     --------
     >>> square = Sheet(4, ((0, 2),), "V", ((0, 1, 2), (0, 2, 3)), ((0, 0), (2, 0), (2, 2), (0, 2)))
-    >>> poses_of_file(square).resting
+    >>> configurations_of_file(square).resting
     0
     """
 
@@ -174,7 +174,7 @@ class FilePoses(NamedTuple):
     left_out: int
 
 
-def poses_of_file(sheet: Sheet) -> FilePoses:
+def configurations_of_file(sheet: Sheet) -> FileConfigurations:
     """Return the configurations of a sheet that the frames of its file hold.
 
     The key frame is often the first of a motion again, or the last, as in files of `synth.fold`: then it is not
@@ -188,11 +188,11 @@ def poses_of_file(sheet: Sheet) -> FilePoses:
     Examples
     --------
     >>> square = Sheet(4, ((0, 2),), "V", ((0, 1, 2), (0, 2, 3)), ((0, 0), (2, 0), (2, 2), (0, 2)))
-    >>> len(poses_of_file(square).sheets)
+    >>> len(configurations_of_file(square).sheets)
     1
     """
     if sheet.frames is None:
-        return FilePoses([sheet], 0, 0)
+        return FileConfigurations([sheet], 0, 0)
     key = sheet.frames.first_placed()
     others = [sheet.frames.frame(number) for number in range(1, sheet.frames.others + 1)]
     panels = (key.vertices, key.faces, key.edges)
@@ -204,8 +204,8 @@ def poses_of_file(sheet: Sheet) -> FilePoses:
     left_out = len(others) - len(same)
     for place in (0, len(same) - 1):
         if same and _stand_alike(same[place], key):
-            return FilePoses(same, place, left_out)
-    return FilePoses([key, *same], 0, left_out)
+            return FileConfigurations(same, place, left_out)
+    return FileConfigurations([key, *same], 0, left_out)
 
 
 def _stand_alike(first: Sheet, second: Sheet) -> bool:

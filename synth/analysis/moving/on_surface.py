@@ -24,7 +24,7 @@ from graphs.types import Flags, Floats, JointId, LinkId
 from synth.analysis.motion.closure import ClosureEquations, Corrected
 from synth.analysis.motion.configuration import Configuration
 from synth.analysis.motion.driven_motion import DrivenMotion
-from synth.analysis.motion.linkage import PosedLinkage, link_motions
+from synth.analysis.motion.linkage import Linkage, link_motions
 from synth.analysis.motion.motion import Motion, motion_along
 from synth.analysis.motion.path import Path, circuit_through
 from synth.analysis.motion.singular.second_order import rates_at
@@ -57,7 +57,7 @@ class Position:
 class SurfaceLinks:
     """The links of a linkage as arcs on its surface."""
 
-    def __init__(self, on_surface: OnSurface, chain: ConformedChain, linkage: PosedLinkage) -> None:
+    def __init__(self, on_surface: OnSurface, chain: ConformedChain, linkage: Linkage) -> None:
         assert on_surface.surface is not None
         self.names, self.linkage, self._surface = chain.links, linkage, on_surface.surface
         places = np.asarray(on_surface.places, dtype=float)

@@ -171,7 +171,7 @@ def explain(mechanism: Movable, *, precision: float | None = None) -> Explanatio
 
     Parameters
     ----------
-    mechanism : Mechanism or PosedLinkage
+    mechanism : Mechanism or Linkage
         With coordinates; of a sheet with several frames the first that has them.
     precision : float, optional
         The error that a coordinate may have, in their unit; by default by their digits, or as the geometry shows.

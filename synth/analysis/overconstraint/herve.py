@@ -22,7 +22,7 @@ from graphs.tolerances import DOUBLE, Tolerances
 from graphs.types import Floats
 from synth.analysis.motion.closure import ClosureEquations, corrected
 from synth.analysis.motion.configuration import Configuration
-from synth.analysis.motion.linkage import PosedLinkage, PosedLoop, moved
+from synth.analysis.motion.linkage import Linkage, LinkageLoop, moved
 from synth.analysis.motion.singular.sampling import closes_along_general_rates
 from synth.analysis.overconstraint.mobility_of_joints import linkage_as_counted
 
@@ -122,7 +122,7 @@ def herve_class(at: Configuration) -> HerveClass | None:
     return HerveClass(kind, dimension, freedoms, by_group, by_axes)
 
 
-def _freedoms_of(member: PosedLinkage, enough: int) -> int:
+def _freedoms_of(member: Linkage, enough: int) -> int:
     """Return the degrees of freedom of a random linkage: its rates, if general ones close.
 
     Otherwise it is shaky and has fewer, so that the number is a bound.
@@ -136,7 +136,7 @@ def _freedoms_of(member: PosedLinkage, enough: int) -> int:
     return min(rates, enough) - 1
 
 
-def _on_branch(at: Configuration) -> tuple[PosedLinkage, float] | None:
+def _on_branch(at: Configuration) -> tuple[Linkage, float] | None:
     """Return a linkage on its branch, away from coincidences of the configuration, and how far axes may miss.
 
     None if it is too large, or has more rates there than the branch has degrees of freedom.
@@ -165,7 +165,7 @@ def _aside(closure: ClosureEquations, angles: Floats) -> Floats:
     return end.angles if end.closed else angles
 
 
-def _screws(points: Floats, directions: Floats, linkage: PosedLinkage) -> Floats:
+def _screws(points: Floats, directions: Floats, linkage: Linkage) -> Floats:
     """Return the screws of joints: float[J, 6], rotation and translation at the origin."""
     screws = np.hstack([directions, np.cross(points, directions)])
     slides = list(linkage.slides)
@@ -173,7 +173,7 @@ def _screws(points: Floats, directions: Floats, linkage: PosedLinkage) -> Floats
     return screws
 
 
-def _rank(linkage: PosedLinkage, screws: Floats) -> int:
+def _rank(linkage: Linkage, screws: Floats) -> int:
     """Return the rank of the closure equations of all loops, six each."""
     matrix = np.zeros((_SPACE * len(linkage.loops), len(screws)))
     for number, loop in enumerate(linkage.loops):
@@ -203,7 +203,7 @@ def _bracket(a: Floats, b: Floats) -> Floats:
 class _Relations:
     """Which axes of a loop are parallel, meet in a point or lie in a plane; random axes that do so too."""
 
-    def __init__(self, linkage: PosedLinkage, near: float) -> None:
+    def __init__(self, linkage: Linkage, near: float) -> None:
         self._linkage, self._near = linkage, near
         self._parallel = nx.utils.UnionFind(range(len(linkage.angles)))
         self._meeting: list[set[int]] = []
@@ -213,7 +213,7 @@ class _Relations:
             self._of_loop(loop)
         self._merge_points()
 
-    def _of_loop(self, loop: PosedLoop) -> None:
+    def _of_loop(self, loop: LinkageLoop) -> None:
         linkage, slides = self._linkage, set(self._linkage.slides)
         for i, k in combinations(loop.joints, 2):
             sine = float(np.linalg.norm(np.cross(linkage.directions[i], linkage.directions[k])))
@@ -278,7 +278,7 @@ class _Relations:
             merged.append(new)
         self._meeting = merged
 
-    def member(self, random: np.random.Generator) -> PosedLinkage | None:
+    def member(self, random: np.random.Generator) -> Linkage | None:
         """Return the linkage with random axes; None if relations leave an axis no place."""
         number = len(self._linkage.angles)
         root = [self._parallel[joint] for joint in range(number)]

@@ -8,7 +8,7 @@ from graphs.joints.linkage import JointedLinkage
 from graphs.mechanism.solids import HingedSolids
 from graphs.types import JointId
 from synth.analysis.motion.configuration import Configuration
-from synth.analysis.motion.linkage import PosedLinkage, PosedLoop, linkage_of_axes
+from synth.analysis.motion.linkage import Linkage, LinkageLoop, linkage_of_axes
 from synth.analysis.moving.elements import serial_linkage
 from synth.analysis.overconstraint import redundancy
 
@@ -17,10 +17,10 @@ from synth.analysis.overconstraint import redundancy
 class CountedLinkage:
     """A linkage whose loops have the equations that the count has, and the joint of the file for each of its own."""
 
-    linkage: PosedLinkage
+    linkage: Linkage
     joint_of: Mapping[JointId, JointId]
 
-    def joints_of(self, loop: PosedLoop) -> tuple[JointId, ...]:
+    def joints_of(self, loop: LinkageLoop) -> tuple[JointId, ...]:
         """Return the joints of the file that a loop passes, each once."""
         names = list(self.linkage.graph.joints)
         return tuple(dict.fromkeys(self.joint_of[names[place]] for place in loop.joints))

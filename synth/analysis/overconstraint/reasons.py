@@ -17,11 +17,11 @@ from graphs.mechanism.solids import HingedSolids
 from graphs.rank.singular_values import null_space, singular_values
 from graphs.tolerances import DOUBLE, Tolerances
 from graphs.types import Flags, Floats, Ints
-from synth.analysis.motion.linkage import PosedLinkage, PosedLoop, axis_lengths
+from synth.analysis.motion.linkage import Linkage, LinkageLoop, axis_lengths
 from synth.analysis.overconstraint.redundancy import FirstOrderClosure
 
 
-def reasons_of(linkage: PosedLinkage, loops: tuple[int, ...], tolerances: Tolerances = DOUBLE) -> list[str]:
+def reasons_of(linkage: Linkage, loops: tuple[int, ...], tolerances: Tolerances = DOUBLE) -> list[str]:
     """Return the special geometry of a set of loops, by name; none where no reason known here fits."""
     chosen = [linkage.loops[loop] for loop in loops]
     turned = tolerances.parallel / axis_lengths(linkage)
@@ -31,7 +31,7 @@ def reasons_of(linkage: PosedLinkage, loops: tuple[int, ...], tolerances: Tolera
     return list(_of_vertices(linkage, chosen, near))
 
 
-def _of_one_loop(linkage: PosedLinkage, loop: PosedLoop, near: float) -> Iterator[str]:
+def _of_one_loop(linkage: Linkage, loop: LinkageLoop, near: float) -> Iterator[str]:
     """Yield reasons that one loop shows where lengths, in units of the extent, and angles are wrong by so much."""
     points, axes = linkage.points[list(loop.joints)], linkage.directions[list(loop.joints)]
     if set(loop.joints) & set(linkage.slides):
@@ -106,7 +106,7 @@ def _is_symmetry(points: Floats, axes: Floats, image: Ints, near: float, *, half
     return bool(moved and _parallel(axes @ turn.T, axes[image], near).all())
 
 
-def _of_vertices(linkage: PosedLinkage, loops: list[PosedLoop], near: list[float]) -> Iterator[str]:
+def _of_vertices(linkage: Linkage, loops: list[LinkageLoop], near: list[float]) -> Iterator[str]:
     """Vertices of four creases that fold flat keep the ratios of their half-angle tangents."""
     if all(loop.centre is Centre.FINITE and len(loop.joints) == 4 for loop in loops):
         round_each = [(*_sectors(linkage, loop), error) for loop, error in zip(loops, near, strict=True)]
@@ -119,7 +119,7 @@ def _of_vertices(linkage: PosedLinkage, loops: list[PosedLoop], near: list[float
             yield "degree-4 vertices with equal opposite sector angles: opposite creases have equal fold angles"
 
 
-def _sectors(linkage: PosedLinkage, loop: PosedLoop) -> list[float]:
+def _sectors(linkage: Linkage, loop: LinkageLoop) -> list[float]:
     """Return the angles between creases, as they go out from the vertex."""
     outwards = linkage.directions[list(loop.joints)] * np.array(loop.signs, dtype=float)[:, None]
     return [float(sector) for sector in sectors(outwards)]
@@ -158,7 +158,7 @@ _SCREW = 6
 
 
 def turning_reasons(
-    linkage: PosedLinkage,
+    linkage: Linkage,
     order: FirstOrderClosure,
     loops: tuple[int, ...],
     tolerances: Tolerances = DOUBLE,
@@ -196,7 +196,7 @@ def _largest(forces: Floats) -> float:
     return largest if largest > DOUBLE.singular else 0.0
 
 
-def _recognised(linkage: PosedLinkage) -> JointedLinkage:
+def _recognised(linkage: Linkage) -> JointedLinkage:
     """Return a linkage of revolutes with the joints that rows of them stand for."""
     axes = {
         joint: (plain_vector(point), plain_vector(axis))

@@ -16,7 +16,7 @@ from graphs.rank.singular_values import row_space, singular_values, spectrum, sp
 from graphs.tolerances import DOUBLE, Tolerances, canonical_basis, canonical_order
 from graphs.types import Floats, Ints, JointId
 from synth.analysis.motion.closure import ClosureEquations
-from synth.analysis.motion.linkage import PosedLinkage, PosedLoop, axis_lengths
+from synth.analysis.motion.linkage import Linkage, LinkageLoop, axis_lengths
 
 _NUDGE = 1e-4
 
@@ -40,7 +40,7 @@ class FirstOrderClosure:
     tolerances: Tolerances
 
 
-def first_order_closure(linkage: PosedLinkage, tolerances: Tolerances = DOUBLE) -> FirstOrderClosure:
+def first_order_closure(linkage: Linkage, tolerances: Tolerances = DOUBLE) -> FirstOrderClosure:
     """Return the closure equations of a linkage with their rank; `NumericalError` if that is undecided."""
     matrix, loop_of = _by_loops(linkage, linkage.angles)
     ranked = spectrum(matrix, np.maximum(tolerances.derivative, 2.0 * tolerances.precision / axis_lengths(linkage)))
@@ -52,7 +52,7 @@ def first_order_closure(linkage: PosedLinkage, tolerances: Tolerances = DOUBLE) 
     return FirstOrderClosure(matrix, loop_of, rates, stresses, smallest, ranked.gap, tolerances)
 
 
-def smallest_sets(linkage: PosedLinkage, order: FirstOrderClosure) -> list[tuple[tuple[int, ...], int]]:
+def smallest_sets(linkage: Linkage, order: FirstOrderClosure) -> list[tuple[tuple[int, ...], int]]:
     """Return sets of loops, none larger than necessary, that hold redundant equations, and how many are in each.
 
     A set is grown from a loop, nearest loops first, until it holds a redundant equation that no earlier set does;
@@ -78,7 +78,7 @@ def smallest_sets(linkage: PosedLinkage, order: FirstOrderClosure) -> list[tuple
     return sets
 
 
-def active_at_second_order(linkage: PosedLinkage, order: FirstOrderClosure) -> int:
+def active_at_second_order(linkage: Linkage, order: FirstOrderClosure) -> int:
     """Return how many redundant equations constrain the motions at second order, and so are not redundant there.
 
     Each self-stress makes a quadratic form of the rates; as many are active as forms are independent.
@@ -95,12 +95,12 @@ def active_at_second_order(linkage: PosedLinkage, order: FirstOrderClosure) -> i
     return int((singular_values(symmetric) > order.tolerances.clear).sum())  # of unit rates and stresses
 
 
-def loop_alone(linkage: PosedLinkage, loop: PosedLoop) -> PosedLinkage:
+def loop_alone(linkage: Linkage, loop: LinkageLoop) -> Linkage:
     """Return a linkage of which only one loop has to close."""
     return replace(linkage, loops=(loop,))
 
 
-def _by_loops(linkage: PosedLinkage, angles: Floats) -> tuple[Floats, Ints]:
+def _by_loops(linkage: Linkage, angles: Floats) -> tuple[Floats, Ints]:
     """Return the derivatives of closure equations, loop after loop, and the loop of each row."""
     rows, loop_of = [np.zeros((0, len(angles)))], []
     for number, loop in enumerate(linkage.loops):
@@ -109,7 +109,7 @@ def _by_loops(linkage: PosedLinkage, angles: Floats) -> tuple[Floats, Ints]:
     return np.vstack(rows), np.array(loop_of, dtype=np.int64)
 
 
-def _nearest_first(linkage: PosedLinkage) -> list[list[int]]:
+def _nearest_first(linkage: Linkage) -> list[list[int]]:
     """Return, for each loop, all loops in the order of their distance from it, by joints in common."""
     joints = [set(loop.joints) for loop in linkage.loops]
     orders = []
@@ -152,7 +152,7 @@ class Tolerance:
     shift: float
 
 
-def axis_tolerances(linkage: PosedLinkage, order: FirstOrderClosure) -> list[Tolerance]:
+def axis_tolerances(linkage: Linkage, order: FirstOrderClosure) -> list[Tolerance]:
     """Return how far each axis may err, least first; axes that may err alike in the order of the joints.
 
     An error of an axis leaves the loops closed at the configuration, and makes a redundant equation one of the rates:
@@ -171,7 +171,7 @@ def axis_tolerances(linkage: PosedLinkage, order: FirstOrderClosure) -> list[Tol
     return [tolerances[place] for place in canonical_order(list(np.log(np.clip(least, 1e-300, 1e300))))]
 
 
-def growths(linkage: PosedLinkage, order: FirstOrderClosure) -> Floats:
+def growths(linkage: Linkage, order: FirstOrderClosure) -> Floats:
     """Return what redundant equations say of the f rates for small motions of the axes: float[idle f, 6 J].
 
     By a rotation about the origin and a shift of each axis in turn.

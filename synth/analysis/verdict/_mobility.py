@@ -11,7 +11,7 @@ from typing import Any
 import networkx as nx
 import numpy as np
 
-from graphs.answer.mechanisms import mobility as counted, sheet_in_frame
+from graphs.answer.mobility import counts_and_ranks, sheet_in_frame
 from graphs.answer.report import RODS_ALONE, MobilityAnswer
 from graphs.convert.conversions import Mechanism
 from graphs.count.applicability import EquationResult
@@ -23,7 +23,7 @@ from graphs.mechanism.sheet import Reading, Sheet
 from graphs.printing import Block, Printed, html_of
 from graphs.rank.dissection import number_below
 from graphs.rank.exact import ExactMobility
-from graphs.rank.pose import PoseMobility
+from graphs.rank.infinitesimal import InfinitesimalMobility
 from graphs.tolerances import DOUBLE
 from graphs.types import Floats, Ints, JointId
 from synth.analysis.folding.configuration import SheetConfiguration
@@ -366,11 +366,11 @@ def verdict_of_type(answer: MobilityAnswer, left_out: str = "") -> Verdict:
     A configuration at which all closure equations are independent is regular: its rates are motions. Where the
     exact rank of a type is as large as its number of equations it is proved, since no realisation has more.
     """
-    pose, exact = answer.pose, answer.exact
-    if pose is not None and pose.dof is not None and pose.self_stresses == 0:
-        text = f"Mobile from this configuration: {in_words(pose.dof)}." if pose.dof else "Rigid."
-        return Verdict(pose.dof, "pose", "proved", text)
-    special = pose is not None and pose.self_stresses != 0  # what holds in general says nothing of this one
+    here, exact = answer.infinitesimal, answer.exact
+    if here is not None and here.dof is not None and here.self_stresses == 0:
+        text = f"Mobile from this configuration: {in_words(here.dof)}." if here.dof else "Rigid."
+        return Verdict(here.dof, "pose", "proved", text)
+    special = here is not None and here.self_stresses != 0  # what holds in general says nothing of this one
     end = f"; {left_out}" if left_out else ""
     if exact is not None and not _is_of_rods_alone(answer):
         certainty: Certainty = "proved" if exact.mobility == answer.mobility else "numerical"
@@ -415,7 +415,7 @@ class JudgedMobility(Printed):
     verdict : Verdict
     report : MobilityAnswer
         Ranks and counts; its values are attributes here too: `mechanism_class`, `links`, `joints`, `loops`,
-        `centres`, `mobility`, `equations`, `counts`, `repairs`, `warnings`, `arrangement`, `exact`, `pose`,
+        `centres`, `mobility`, `equations`, `counts`, `repairs`, `warnings`, `arrangement`, `exact`, `infinitesimal`,
         `reading`, `overconstraint`.
     configuration : Configuration or None
         Where it moves from; None for a type, and where its motion was not looked for.
@@ -489,9 +489,9 @@ class JudgedMobility(Printed):
         return self.report.exact
 
     @property
-    def pose(self) -> PoseMobility | None:
+    def infinitesimal(self) -> InfinitesimalMobility | None:
         """The infinitesimal degrees of freedom at the coordinates."""
-        return self.report.pose
+        return self.report.infinitesimal
 
     @property
     def reading(self) -> Reading | None:
@@ -571,7 +571,7 @@ def mobility(
     *,
     exact: bool | None = None,
     hinge_flat: bool = False,
-    pose: int | None = None,
+    frame: int | None = None,
     geometry: bool = True,
     motion: bool | None = None,
     precision: float | None = None,
@@ -588,7 +588,7 @@ def mobility(
         Find the exact generic rank; by default unless the mechanism is too large.
     hinge_flat : bool, optional
         Make hinges of the flat (F) edges of a crease pattern too.
-    pose : int, optional
+    frame : int, optional
         The frame of a FOLD file that all numbers are those of; by default the pattern as it was read, or if that
         has no coordinates, the first frame that has.
     geometry : bool, optional
@@ -613,7 +613,7 @@ def mobility(
     >>> answer = mobility(sheet)
     >>> print(answer.verdict)
     Rigid-foldable from the flat state: 1 degree of freedom. 2 folding branches.
-    >>> answer.mobility, answer.pose.dof
+    >>> answer.mobility, answer.infinitesimal.dof
     (1, 2)
     """
     mechanism = mechanism_for("mobility", mechanism, Configuration | Mechanism)
@@ -623,19 +623,19 @@ def mobility(
     at, reason = None, "its motion was not analysed" if motion is False else ""
     demanded = bool(motion)
     if motion is not False and isinstance(source, Sheet):
-        placed = sheet_in_frame(source, pose)
+        placed = sheet_in_frame(source, frame)
         if isinstance(mechanism, Configuration):
             at = mechanism
         elif placed.coordinates is not None and len(placed.faces) > MOST_PANELS and not demanded:
             reason = on_request(placed)
         elif placed.coordinates is not None or demanded:
-            at, reason = _configuration(mechanism, pose, hinge_flat, demanded=demanded)
+            at, reason = _configuration(mechanism, frame, hinge_flat, demanded=demanded)
     dual = at.dual if isinstance(at, SheetConfiguration) and geometry else None
-    answer = counted(source, exact=exact, hinge_flat=hinge_flat, pose=pose, geometry=geometry, dual=dual)
-    if motion is not False and not isinstance(source, Sheet) and (answer.pose is not None or motion):
-        at, reason = _configuration(mechanism, pose, hinge_flat, demanded=demanded)
+    answer = counts_and_ranks(source, exact=exact, hinge_flat=hinge_flat, frame=frame, geometry=geometry, dual=dual)
+    if motion is not False and not isinstance(source, Sheet) and (answer.infinitesimal is not None or motion):
+        at, reason = _configuration(mechanism, frame, hinge_flat, demanded=demanded)
     if at is None:
-        return _judged(answer, verdict_of_type(answer, reason if answer.pose is not None else ""))
+        return _judged(answer, verdict_of_type(answer, reason if answer.infinitesimal is not None else ""))
     at = replace(at, more=True) if more else at
     judged = _judged(answer, verdict_of_motion(at, answer.mobility), at)
     if hinge_flat or not isinstance(at, SheetConfiguration) or not at.flat:
@@ -664,7 +664,7 @@ def mobility_of_type(
     A generic realisation is rigid (exact rank).
     """
     source = _counted_from(mechanism)
-    answer = counted(source, exact=exact, hinge_flat=hinge_flat, pose=False, geometry=geometry)
+    answer = counts_and_ranks(source, exact=exact, hinge_flat=hinge_flat, infinitesimal=False, geometry=geometry)
     return _judged(answer, verdict_of_type(answer))
 
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from math import degrees
 from typing import Any
 
-from graphs.answer.mechanisms import mobility
+from graphs.answer.mobility import counts_and_ranks
 from graphs.errors import InvariantError, UnsolvableError, numbered, shown
 from graphs.joints.linkage import JointedLinkage
 from graphs.mechanism.sheet import Sheet
@@ -131,5 +131,5 @@ def generate(name: str, *, fold: float | None = None, **parameters: float) -> Ge
         last_frame = fold_to(mechanism, fold).frames()[-1]  # on the branch of its assignment
         assert isinstance(last_frame, Sheet)
         mechanism = last_frame
-    by_count = mobility(mechanism, exact=False, pose=False).mobility
+    by_count = counts_and_ranks(mechanism, exact=False, infinitesimal=False).mobility
     return Generated(generator, values, fold, mechanism, generator.freedoms(values), by_count)

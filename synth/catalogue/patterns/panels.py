@@ -11,7 +11,7 @@ Place = tuple[float, ...]
 Corners = Sequence[Place]
 
 DIGITS = 14
-"""Special proportions are kept to these: rounding more would close the loops at one pose only."""
+"""Special proportions are kept to these: rounding more would close the loops at one configuration only."""
 _SAME = 12
 """Corners are one vertex if they agree to so many decimals."""
 _NONE: Mapping[frozenset[int], str] = MappingProxyType({})

@@ -22,7 +22,7 @@ from graphs.mechanism.scd import SCDGraph
 from graphs.mechanism.sheet import Sheet
 from graphs.printing import Block, Printed
 from graphs.rank.exact import exact_mobility
-from graphs.rank.pose import pose_mobility
+from graphs.rank.infinitesimal import infinitesimal_mobility
 from graphs.tolerances import MARGIN, signed
 from graphs.types import Floats
 from synth.analysis.folding.configuration import SheetConfiguration, configuration_of_sheet
@@ -484,7 +484,7 @@ def _realised(task: _Task, wishes: DrawingConditions, placed: _Placed) -> Realis
     if map_id(scd_of_placed_panels(sheet)) != task.code:
         raise UnsolvableError(OTHER_TYPE)
     at = configuration_of_sheet(sheet)
-    freedoms = pose_mobility(sheet, at.dual).dof
+    freedoms = infinitesimal_mobility(sheet, at.dual).dof
     at, folds = _folded(at) if task.kind == "sheet" else (at, None)
     return Realisation(
         kind=task.kind,

@@ -121,7 +121,7 @@ def layers(
         or which["face_orders"] or which["sample"] is not None
     ):  # fmt: skip
         raise click.UsageError("--may-stay-flat goes with --frame, --order, -o, --json and --precision only")
-    from graphs.answer.mechanisms import sheet_in_frame
+    from graphs.answer.mobility import sheet_in_frame
     from graphs.files.mechanism_like import mechanism_for
     from graphs.mechanism import Sheet
 
@@ -219,7 +219,7 @@ def _print_folded(
         _shown(answer, file, frame=frame, **which) if answer.image is not None and answer.foldable else (None, ())
     )
     if output is not None and answer.image is not None and answer.foldable:
-        text = synth.analysis.layering.posed_fold_text(answer, shown or answer.order())
+        text = synth.analysis.layering.fold_text_of_layers(answer, shown or answer.order())
         write_text(Path(output), text, force=force)
     else:
         output = None

@@ -65,7 +65,7 @@ def mobility(
         raise click.UsageError("--pose and --no-pose exclude each other")
     counting["geometry"] = not no_geometry
     if not no_pose:
-        counting |= {"pose": pose, "motion": look_for_motion, "more": more}
+        counting |= {"frame": pose, "motion": look_for_motion, "more": more}
     judge = synth.analysis.verdict.mobility_of_type if no_pose else synth.mobility
     failures: list[str] = []
     answers: list[tuple[str, synth.analysis.verdict.JudgedMobility]] = []
@@ -109,7 +109,7 @@ def _print_table(out: Console, answers: list[tuple[str, synth.analysis.verdict.J
             plain(answer.verdict.freedoms),
             *map(plain, (answer.links, answer.joints, answer.loops, answer.centres, answer.mobility)),
             plain(None if answer.exact is None else answer.exact.mobility),
-            plain(None if answer.pose is None else answer.pose.dof),
+            plain(None if answer.infinitesimal is None else answer.infinitesimal.dof),
             plain(notes or ""),
         )
     out.print(rows)

@@ -96,7 +96,7 @@ def fold(
       synth fold data/patterns/bird-base.fold --all -o folded.gif
       synth fold data/linkages/sarrus.json --frames 11 -o rising.svg
     """
-    from synth.making.drawing.space.poses import check_motion_file, write_motion
+    from synth.making.drawing.space.motion_files import check_motion_file, write_motion
 
     if sum(map(bool, (whole, drive, along))) > 1:
         raise click.UsageError("--drive, --along and --all exclude each other; try one of them")

@@ -9,6 +9,7 @@ from synth.linkages.conformed.behaviours import (
     table4 as table4,
     table_row as table_row,
 )
+from synth.linkages.conformed.dihedrals import dihedral_angles as dihedral_angles
 from synth.linkages.conformed.linkage_behaviour import (
     ArcChoice as ArcChoice,
     LinkageBehaviour as LinkageBehaviour,
@@ -24,7 +25,6 @@ from synth.linkages.conformed.outward_rate import (
     joint_rates as joint_rates,
     outward_rates as outward_rates,
 )
-from synth.linkages.conformed.pose import dihedral_angles as dihedral_angles
 from synth.linkages.conformed.rates import (
     ConformedChain as ConformedChain,
     FirstOrder as FirstOrder,

@@ -15,6 +15,7 @@ import numpy as np
 
 from graphs.edit.named import joint_named, link_named
 from graphs.errors import InvariantError, UnsolvableError, numbered, shown
+from graphs.mechanism.closed_form import ClosedFormLinkage, PlacedChain
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.surfaces import Cone, Cylinder, Surface, SurfaceLinkage, as_planar, ring, surface_json
 from graphs.printing import Block, Printed, TableBlock, plain
@@ -42,7 +43,7 @@ _FAR = 1e12
 
 
 @dataclass(frozen=True, slots=True)
-class OnSurface:
+class OnSurface(ClosedFormLinkage):
     """A linkage at its conformed position; without a surface, on any cone or cylinder.
 
     Attributes
@@ -71,6 +72,12 @@ class OnSurface:
     def cone_angle(self) -> float | None:
         """lambda, radians, of a cone."""
         return self.surface.angle if isinstance(self.surface, Cone) else None
+
+    def placed_chain(self, body: Floats | None = None) -> PlacedChain:
+        """Return its axes at the conformed position; `UnsolvableError` if it fits any surface."""
+        if self.surface is None:
+            raise UnsolvableError("the linkage fits any cone or cylinder; expected a cone angle or a radius")
+        return PlacedChain(self.chain, *self.surface.axes(self.places), self.surface.centre)
 
     def linkage(self) -> SurfaceLinkage:
         """Return the linkage by its steps and its surface, in the form that can be written to a file."""

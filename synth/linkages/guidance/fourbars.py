@@ -17,6 +17,9 @@ import numpy.typing as npt
 
 from graphs.errors import UnsolvableError, numbered
 from graphs.geometry import across, angles_between, rotated, unit
+from graphs.loops.loop import Centre
+from graphs.mechanism.closed_form import ClosedFormLinkage, PlacedChain
+from graphs.mechanism.sc import SCGraph
 from graphs.tolerances import DOUBLE, canonical_order
 from graphs.types import Floats
 from synth.linkages.fourbar.closing import FourBarKind, kind_of_spherical, supplementary
@@ -31,7 +34,7 @@ _TURN = 2.0 * np.pi
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
-class GuidedFourBar:
+class GuidedFourBar(ClosedFormLinkage):
     """A spherical four-bar whose coupler is guided through orientations.
 
     Attributes
@@ -66,6 +69,17 @@ class GuidedFourBar:
     direction: Direction | None
     in_order_on_circuit: bool
     transmission: float
+
+    def placed_chain(self, body: Floats | None = None) -> PlacedChain:
+        """Return the joints O (driver, fixed), A and B (on the body) and C with the body turned by float[3, 3]."""
+        if body is None:
+            raise UnsolvableError("a guided four-bar has its moving axes in the body; expected its orientations")
+        ring = SCGraph(("ground", "driver", "body", "follower"), {
+            "O": ("ground", "driver"), "A": ("driver", "body"), "B": ("body", "follower"), "C": ("follower", "ground"),
+        }, ground="ground")  # fmt: skip
+        moving = (body @ self.driver.moving, body @ self.follower.moving)
+        directions = np.array([self.driver.fixed, *moving, self.follower.fixed])
+        return PlacedChain(ring, np.zeros_like(directions), directions, Centre.FINITE)
 
     @property
     def circuit_defect(self) -> bool:

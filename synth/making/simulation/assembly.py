@@ -27,7 +27,7 @@ from synth.analysis.folding.configuration import SheetConfiguration
 from synth.analysis.motion.closure import corrected
 from synth.analysis.motion.configuration import Configuration
 from synth.analysis.motion.driven_motion import DrivenMotion, MotionOptions, driven_from
-from synth.analysis.motion.linkage import PosedLinkage, moved, placed_links
+from synth.analysis.motion.linkage import Linkage, moved, placed_links
 from synth.analysis.moving._configuration_of import Movable, configuration_of
 from synth.making.simulation.bodies import Bar, Body, Hinge, MassProperties, Plate, Polyhedron, Shape, Shell, TreeJoint
 from synth.making.simulation.connections import CutHinge, Parting, connections
@@ -221,16 +221,16 @@ def assembly_of(mechanism: Movable, options: AssemblyOptions | None = None) -> A
     here = linkage.angles if regular or driven is None else path[len(path) // 2]
     there = corrected(at.closure, here)
     angles, residual = there.angles, there.error
-    posed = moved(linkage, angles)
-    unit_length = _unit(posed, at, options)
+    linkage = moved(linkage, angles)
+    unit_length = _unit(linkage, at, options)
     metre = linkage.extent * unit_length
     if options.size is None and options.scale is None and unit_length == 1.0 and metre >= _IMPROBABLE:
         notes = (*notes, f"coordinates are taken as metres: an extent of {metre:.3g} m; --scale or --size changes it")
     thickness = _thickness(options, metre)
     drivers = () if driven is None else tuple(driven.places)
-    hinges = _hinges(at, posed, metre, options, unit_length)
+    hinges = _hinges(at, linkage, metre, options, unit_length)
     on_surface = shells_of(mechanism if at.given is None else at.given, linkage, angles, metre, thickness)
-    bodies = _bodies(at, posed, hinges, angles, metre, options.density, thickness, on_surface, options.shapes)
+    bodies = _bodies(at, linkage, hinges, angles, metre, options.density, thickness, on_surface, options.shapes)
     lengths = np.where(np.isin(np.arange(len(hinges)), linkage.slides), metre, 1.0)
     tree, bases, cut = spanning_tree(at, hinges, drivers)
     few = path[:: max(1, len(path) // _LOOKED_AT)]
@@ -292,14 +292,14 @@ def turns_back(values: Floats) -> bool:
     return steps.shape[1] == 1 and bool((steps < 0.0).any() and (steps > 0.0).any())
 
 
-def _unit(posed: PosedLinkage, at: Configuration, options: AssemblyOptions) -> float:
+def _unit(linkage: Linkage, at: Configuration, options: AssemblyOptions) -> float:
     """Return metres per unit of the coordinates."""
     if options.size is None:
         return (_METRE if options.scale is None else options.scale) / _METRE
-    points = posed.points * posed.extent
+    points = linkage.points * linkage.extent
     if isinstance(at, SheetConfiguration):
         points = np.array([[*corner, 0.0][:3] for corner in at.sheet.coordinates or ()])
-    longest = float(np.ptp(points, axis=0).max(initial=0.0)) or posed.extent
+    longest = float(np.ptp(points, axis=0).max(initial=0.0)) or linkage.extent
     return options.size / _METRE / longest
 
 
@@ -315,20 +315,20 @@ def _thickness(options: AssemblyOptions, metre: float) -> float:
 
 
 def _hinges(
-    at: Configuration, posed: PosedLinkage, metre: float, options: AssemblyOptions, unit_length: float
+    at: Configuration, linkage: Linkage, metre: float, options: AssemblyOptions, unit_length: float
 ) -> tuple[Hinge, ...]:
-    number = {link: place for place, link in enumerate(posed.graph.nodes)}
-    points, reaches = _places(at, posed)
-    middle = posed.middle * unit_length
-    springs, names = options.springs, _names("joint", posed.graph.joints)
+    number = {link: place for place, link in enumerate(linkage.graph.nodes)}
+    points, reaches = _places(at, linkage)
+    middle = linkage.middle * unit_length
+    springs, names = options.springs, _names("joint", linkage.graph.joints)
     hinges, limits = [], _limits(at)
-    for place, (joint, (first, second)) in enumerate(posed.graph.joints.items()):
-        slide = place in posed.slides
-        angle = float(posed.angles[place]) * (metre if slide else 1.0)
+    for place, (joint, (first, second)) in enumerate(linkage.graph.joints.items()):
+        slide = place in linkage.slides
+        angle = float(linkage.angles[place]) * (metre if slide else 1.0)
         hinges.append(
             Hinge(
                 names[place], joint, number[first], number[second], points[place] * metre + middle,
-                posed.directions[place], float(reaches[place]) * metre, angle, slide, limits[place],
+                linkage.directions[place], float(reaches[place]) * metre, angle, slide, limits[place],
                 springs.stiffness.get(joint, 0.0), springs.rest.get(joint, angle), springs.moments.get(joint, 0.0),
             )
         )  # fmt: skip
@@ -358,7 +358,7 @@ def _names(kind: str, ids: Iterable[object]) -> list[str]:
     return names
 
 
-def _places(at: Configuration, posed: PosedLinkage) -> tuple[Floats, Floats]:
+def _places(at: Configuration, linkage: Linkage) -> tuple[Floats, Floats]:
     """Return where hinges are on their axes, float[J, 3], and half their lengths, float[J], in extents.
 
     A crease is where its edge is. Of other axes a point is known: where those of two joints of a link coincide,
@@ -367,13 +367,15 @@ def _places(at: Configuration, posed: PosedLinkage) -> tuple[Floats, Floats]:
     if isinstance(at, SheetConfiguration):
         corners = np.array([[*corner, 0.0][:3] for corner in at.sheet.coordinates or ()])
         hinges: Mapping[JointId, Any] = at.mechanism.hinges  # type: ignore[assignment]  # numbers of edges
-        ends = np.array([hinges[joint] for joint in posed.graph.joints], dtype=np.int64).reshape(-1, 2)
-        return posed.points, np.linalg.norm(corners[ends[:, 1]] - corners[ends[:, 0]], axis=1) / (2.0 * posed.extent)
-    of_link: dict[LinkId, list[int]] = {link: [] for link in posed.graph.nodes}
-    for place, ends_of in enumerate(posed.graph.joints.values()):
+        ends = np.array([hinges[joint] for joint in linkage.graph.joints], dtype=np.int64).reshape(-1, 2)
+        return linkage.points, np.linalg.norm(corners[ends[:, 1]] - corners[ends[:, 0]], axis=1) / (
+            2.0 * linkage.extent
+        )
+    of_link: dict[LinkId, list[int]] = {link: [] for link in linkage.graph.nodes}
+    for place, ends_of in enumerate(linkage.graph.joints.values()):
         for link in ends_of:
             of_link[link].append(place)
-    points = posed.points
+    points = linkage.points
     all_one = float(np.ptp(points, axis=0).max(initial=0.0)) <= DOUBLE.same_point
     out = np.zeros(len(points))
     for places in of_link.values():
@@ -381,17 +383,17 @@ def _places(at: Configuration, posed: PosedLinkage) -> tuple[Floats, Floats]:
             for other in places:
                 if one != other and np.linalg.norm(points[one] - points[other]) <= DOUBLE.same_point:
                     out[one] = 1.0 if all_one else 2.0 * _PIN
-    return points + out[:, None] * posed.directions, np.full(len(points), _PIN)
+    return points + out[:, None] * linkage.directions, np.full(len(points), _PIN)
 
 
 def _bodies(
-    at: Configuration, posed: PosedLinkage, hinges: Sequence[Hinge], angles: Floats, metre: float, density: float,
+    at: Configuration, linkage: Linkage, hinges: Sequence[Hinge], angles: Floats, metre: float, density: float,
     thickness: float, shells: Mapping[LinkId, Shell], solids: Sequence[LinkShape],
 ) -> tuple[Body, ...]:  # fmt: skip
-    names = _names("link", posed.graph.nodes)
+    names = _names("link", linkage.graph.nodes)
     bodies = []
     turns, shifts = (part[0] for part in placed_links(at.linkage, angles[None]))
-    for number, link in enumerate(posed.graph.nodes):
+    for number, link in enumerate(linkage.graph.nodes):
         if link in shells:
             shapes: list[Shape] = [shells[link]]
         elif any(solid.link == link for solid in solids):

@@ -7,7 +7,7 @@ import numpy as np
 from graphs.errors import UnsolvableError
 from graphs.mechanism.surfaces import Cone, Surface, SurfaceLinkage
 from graphs.types import Floats, LinkId
-from synth.analysis.motion.linkage import PosedLinkage, placed_links
+from synth.analysis.motion.linkage import Linkage, placed_links
 from synth.analysis.moving._configuration_of import Movable
 from synth.linkages.conformed.linkage_behaviour import OnSurface
 from synth.linkages.conformed.rates import ConformedChain
@@ -20,7 +20,7 @@ _APART = 3.0
 
 
 def shells_of(
-    mechanism: Movable | None, linkage: PosedLinkage, angles: Floats, metre: float, thickness: float
+    mechanism: Movable | None, linkage: Linkage, angles: Floats, metre: float, thickness: float
 ) -> dict[LinkId, Shell]:
     """Return the links of a linkage on a surface as shells at joint angles, in metres; none of any other mechanism.
 

@@ -17,7 +17,7 @@ from graphs.mechanism.sheet import FLAT, Sheet, with_all_edges
 from graphs.mechanism.solids import HingedSolids
 from graphs.mechanism.surfaces import Surface
 from graphs.types import Floats
-from synth.analysis.moving.motion import FilePoses, poses_of_file
+from synth.analysis.moving.motion import FileConfigurations, configurations_of_file
 from synth.exporters import EXPORTERS
 from synth.linkages.conformed.linkage_behaviour import OnSurface
 from synth.making.templates.on_surface import LayeredLinkage, TemplateSizes, solids_on_surface
@@ -54,18 +54,18 @@ class SheetPlates:
                 self.meshes.append(pierced_plate(polygon, thickness, name))
                 self.faces.append(face)
 
-    def motions(self, sheet: Sheet, poses: Floats) -> tuple[Floats, Floats]:
-        """Return rotations, float[poses, meshes, 3, 3], and translations, float[poses, meshes, 3], of plates.
+    def motions(self, sheet: Sheet, frames: Floats) -> tuple[Floats, Floats]:
+        """Return rotations, float[frames, meshes, 3, 3], and translations, float[frames, meshes, 3], of plates.
 
-        Poses are float[poses, vertices, 3], millimetres. Raise UnsolvableError if a panel has another shape in a
-        pose.
+        Frames are float[frames, vertices, 3], millimetres. Raise UnsolvableError if a panel has another shape in a
+        frame.
         """
-        turns = np.empty((len(poses), len(self.faces), 3, 3))
-        shifts = np.empty((len(poses), len(self.faces), 3))
-        for pose, places in enumerate(poses):
+        turns = np.empty((len(frames), len(self.faces), 3, 3))
+        shifts = np.empty((len(frames), len(self.faces), 3))
+        for frame, places in enumerate(frames):
             for mesh, face in enumerate(self.faces):
                 corners = places[list(sheet.faces[face])]
-                turns[pose, mesh], shifts[pose, mesh] = _frame(corners, self.planes[face], f"{face} in pose {pose}")
+                turns[frame, mesh], shifts[frame, mesh] = _frame(corners, self.planes[face], f"{face} in pose {frame}")
         return turns, shifts
 
 
@@ -139,7 +139,7 @@ def _frame(corners: Floats, plane: Plane, where: str) -> tuple[Floats, Floats]:
 class Solids(NamedTuple):
     """Closed meshes to write. The title and the motion are for glTF.
 
-    A motion is (float[poses, meshes, 3, 3], float[poses, meshes, 3]), how meshes rotate and translate.
+    A motion is (float[frames, meshes, 3, 3], float[frames, meshes, 3]), how meshes rotate and translate.
     """
 
     meshes: Sequence[SolidMesh]
@@ -180,18 +180,18 @@ THICKNESS = 1.0
 """Default thickness of panels, millimetres."""
 
 
-def poses_of(sheet: Sheet) -> tuple[Sheet, Floats, FilePoses]:
-    """Return a sheet with all edges listed, its poses, and what of its file they are.
+def frames_of(sheet: Sheet) -> tuple[Sheet, Floats, FileConfigurations]:
+    """Return a sheet with all edges listed, its frames, and what of its file they are.
 
-    Poses are float[poses, vertices, 3] in the unit of the file, in the order of its motion. Raise
+    Frames are float[frames, vertices, 3] in the unit of the file, in the order of its motion. Raise
     UnsolvableError if the sheet has no coordinates or no panels.
     """
     first = sheet if sheet.frames is None else sheet.frames.first_placed()
     if first.coordinates is None or not first.faces:
         raise UnsolvableError("solids require panels with coordinates, and the sheet has none")
-    of_file = poses_of_file(sheet)
-    poses = [in_space(pose.coordinates or ()) for pose in of_file.sheets]
-    return with_all_edges(first), np.array(poses), of_file
+    of_file = configurations_of_file(sheet)
+    frames = [in_space(frame.coordinates or ()) for frame in of_file.sheets]
+    return with_all_edges(first), np.array(frames), of_file
 
 
 def write_solids(
@@ -243,15 +243,15 @@ def write_solids(
     ('hinges, but for the gaps',)
     """
     check_writable(path, EXPORTERS["solids"], force=force)
-    whole, poses, of_file = poses_of(sheet)
+    whole, frames, of_file = frames_of(sheet)
     if scale is None and size is None:
         size = fitted_size(sheet)
-    poses = poses * millimetres(poses[of_file.resting], scale_of(sheet, scale, size), size)
-    plates = SheetPlates(whole, poses[of_file.resting], thickness=thickness, gap=2 * thickness if gap is None else gap)
+    frames = frames * millimetres(frames[of_file.resting], scale_of(sheet, scale, size), size)
+    plates = SheetPlates(whole, frames[of_file.resting], thickness=thickness, gap=2 * thickness if gap is None else gap)
     if Path(path).suffix.lower() == ".gltf":
-        solids = Solids(plates.meshes, whole.title, plates.motions(whole, poses), of_file.left_out)
+        solids = Solids(plates.meshes, whole.title, plates.motions(whole, frames), of_file.left_out)
     else:
-        solids = Solids(plates_in_space(plates), frames_left_out=of_file.left_out + len(poses) - 1)
+        solids = Solids(plates_in_space(plates), frames_left_out=of_file.left_out + len(frames) - 1)
     return write_as(solids, path, EXPORTERS["solids"], force=force)
 
 
@@ -262,8 +262,8 @@ def fitted_size(sheet: Sheet) -> float | None:
     """
     if unit_of(sheet) is not None:
         return None
-    _, poses, of_file = poses_of(sheet)
-    return FITTED if 0 < float(np.ptp(poses[of_file.resting], axis=0).max()) < LEAST else None
+    _, frames, of_file = frames_of(sheet)
+    return FITTED if 0 < float(np.ptp(frames[of_file.resting], axis=0).max()) < LEAST else None
 
 
 def write_shapes(solids: HingedSolids, path: str | Path, *, force: bool = False) -> tuple[str, ...]:

@@ -156,7 +156,7 @@ _BOX = (420.0, 420.0)
 """Largest width and height of the picture, in points."""
 
 
-def folded_pose(sheet: Sheet) -> tuple[Sheet | None, str]:
+def folded_sheet(sheet: Sheet) -> tuple[Sheet | None, str]:
     """Return a folded configuration of a sheet, and which it is in words; None, and the reason, if there is none.
 
     It is the sheet itself if it is not flat, else the middle one of the frames of its file that are not flat;
@@ -372,11 +372,11 @@ def pictured(template: Template, sheet: Sheet) -> tuple[Template, str]:
     >>> pictured(template_of(square, size=100), square)[0].steps[-1]
     'It then looks as below, folded half way; the printed side is grey, its back blue.'
     """
-    pose, seen = folded_pose(sheet)
-    if pose is None:
+    folded, seen = folded_sheet(sheet)
+    if folded is None:
         return template, seen
-    picture = folded_scene(pose, PictureOptions(numbers=False, box=_BOX, caption=None))
-    sides = "; the printed side is grey, its back blue" if list(pose.faces) == same_side_up(pose.faces) else ""
+    picture = folded_scene(folded, PictureOptions(numbers=False, box=_BOX, caption=None))
+    sides = "; the printed side is grey, its back blue" if list(folded.faces) == same_side_up(folded.faces) else ""
     return replace(template, picture=picture, steps=(*template.steps, f"It then looks as below, {seen}{sides}.")), ""
 
 

@@ -32,7 +32,7 @@ from graphs.types import Floats, Ints, LinkId
 from synth.analysis.folding.configuration import SheetConfiguration
 from synth.analysis.motion.closure import frames_of
 from synth.analysis.motion.configuration import Configuration
-from synth.analysis.motion.linkage import PosedLinkage, PosedLoop, joints_outwards
+from synth.analysis.motion.linkage import Linkage, LinkageLoop, joints_outwards
 from synth.linkages.conformed.behaviours import link_arcs
 from synth.linkages.conformed.linkage_behaviour import OnSurface
 from synth.linkages.conformed.rates import ConformedChain
@@ -77,7 +77,7 @@ class Bodies:
         }
 
 
-def bodies_of_sheet(sheet: Sheet, mechanism: SheetMechanism, linkage: PosedLinkage) -> Bodies:
+def bodies_of_sheet(sheet: Sheet, mechanism: SheetMechanism, linkage: Linkage) -> Bodies:
     """Return the panels of a crease pattern with coordinates and all its edges, with its mechanism and linkage."""
     assert sheet.coordinates is not None
     number = {joint: index for index, joint in enumerate(linkage.graph.joints)}
@@ -101,7 +101,7 @@ def bodies_of_sheet(sheet: Sheet, mechanism: SheetMechanism, linkage: PosedLinka
     return Bodies(local, owners, faces, edges)
 
 
-def bodies_of_linkage(linkage: PosedLinkage) -> Bodies:
+def bodies_of_linkage(linkage: Linkage) -> Bodies:
     """Return bodies that carry the axes of a linkage; a link with two skew axes is a tetrahedron."""
     number = {link: place for place, link in enumerate(linkage.graph.nodes)}
     ends = _pieces(linkage)
@@ -127,7 +127,7 @@ def bodies_of_linkage(linkage: PosedLinkage) -> Bodies:
     return Bodies(np.concatenate([np.zeros((0, 3)), *vertices]), owners, faces, edges)
 
 
-def bodies_of_shapes(solids: HingedSolids, linkage: PosedLinkage) -> Bodies:
+def bodies_of_shapes(solids: HingedSolids, linkage: Linkage) -> Bodies:
     """Return the shapes of the links of hinged solids, and the piece of each axis at which there is material."""
     shown = faces_of_shapes(solids, linkage)
     corners, owners = [shown.corners], list(shown.owners)
@@ -149,7 +149,7 @@ def bodies_of_shapes(solids: HingedSolids, linkage: PosedLinkage) -> Bodies:
     return Bodies(np.concatenate(corners), owners, shown.faces, edges)
 
 
-def bodies_on_surface(on_surface: OnSurface, linkage: PosedLinkage) -> Bodies:
+def bodies_on_surface(on_surface: OnSurface, linkage: Linkage) -> Bodies:
     """Return links as shells that lie over their arcs of a cone or a cylinder, in layers, and that surface."""
     surface = on_surface.surface
     assert surface is not None, "a linkage at a configuration lies on one surface"
@@ -224,7 +224,7 @@ def hull_faces(corners: Floats) -> list[list[int]]:
     return [around if around[1] < around[-1] else [around[0], *around[:0:-1]]]
 
 
-def _pieces(linkage: PosedLinkage) -> Floats:
+def _pieces(linkage: Linkage) -> Floats:
     """Return the ends of the pieces of the axes that are shown: float[J, 2, 3]."""
     points, directions = linkage.points, linkage.directions
     if np.abs(points - points.mean(axis=0)).max(initial=0.0) <= DOUBLE.same_point:
@@ -273,7 +273,7 @@ def centres_of(configuration: Configuration) -> tuple[ShownCentre, ...]:
     )
 
 
-def _shown_centre(linkage: PosedLinkage, centre: CentreClass, finite: Kind) -> ShownCentre:
+def _shown_centre(linkage: Linkage, centre: CentreClass, finite: Kind) -> ShownCentre:
     number = {joint: index for index, joint in enumerate(linkage.graph.joints)}
     joints = sorted(number[joint] for joint in centre.joints)
     pairs = list(linkage.graph.joints.values())
@@ -289,7 +289,7 @@ def _shown_centre(linkage: PosedLinkage, centre: CentreClass, finite: Kind) -> S
     return ShownCentre(finite, place, None, link, tuple(joints), len(centre.loops))
 
 
-def solver_data(linkage: PosedLinkage, *, limited: bool, ground: LinkId | None = None) -> dict[str, Any]:
+def solver_data(linkage: Linkage, *, limited: bool, ground: LinkId | None = None) -> dict[str, Any]:
     """Return plain data with which the page's solver moves a closed linkage.
 
     It is `LinkageData` of web/src/solver/types.js. Loops of one kind and length come together, so that residuals
@@ -302,7 +302,7 @@ def solver_data(linkage: PosedLinkage, *, limited: bool, ground: LinkId | None =
     tree = [
         (number[near], number[far], joint, int(sign)) for near, far, joint, sign in joints_outwards(linkage, ground)
     ]
-    kinds: dict[tuple[Centre, int], list[PosedLoop]] = {}
+    kinds: dict[tuple[Centre, int], list[LinkageLoop]] = {}
     for loop in linkage.loops:
         kinds.setdefault((loop.centre, len(loop.joints)), []).append(loop)
     return {
@@ -335,7 +335,7 @@ def factor_order(joints: int, loops: Sequence[Sequence[int]]) -> Ints:
     return np.asarray(factors.perm_c, dtype=np.int64)
 
 
-def _loop(linkage: PosedLinkage, loop: PosedLoop) -> dict[str, Any]:
+def _loop(linkage: Linkage, loop: LinkageLoop) -> dict[str, Any]:
     parallel = loop.centre is Centre.INFINITE
     return {
         "joints": list(loop.joints),

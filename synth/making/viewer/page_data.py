@@ -28,7 +28,7 @@ from synth.analysis.motion.closure import ClosureEquations
 from synth.analysis.motion.configuration import Configuration
 from synth.analysis.motion.driven_motion import BranchChoice, beginning
 from synth.analysis.motion.germ import Branch
-from synth.analysis.motion.linkage import PosedLinkage
+from synth.analysis.motion.linkage import Linkage
 from synth.analysis.motion.singular.sampling import walked
 from synth.analysis.motion.walk.events import free_rates, independent_joints
 from synth.analysis.moving._configuration_of import configuration_of
@@ -151,7 +151,7 @@ class MovingLinkage:
     `ground` is the index of the fixed link; `limited`: joints end at 180 degrees.
     """
 
-    linkage: PosedLinkage
+    linkage: Linkage
     bodies: Bodies
     ways: Ways | None
     centres: tuple[ShownCentre, ...]
@@ -281,7 +281,7 @@ def shown_of(
     at, moving = _moving(placed, notes, searched=not on_request_only)
     report("finding the mobility", 2, _STEPS)
     answer = mobility(placed if at is None or on_request_only else at, motion=False if on_request_only else motion)
-    if on_request_only and isinstance(placed, Sheet) and motion is None and answer.pose is not None:
+    if on_request_only and isinstance(placed, Sheet) and motion is None and answer.infinitesimal is not None:
         answer = replace(answer, verdict=verdict_of_type(answer.report, on_request(placed)))
     verdict = answer.verdict
     report("drawing", 3, _STEPS)

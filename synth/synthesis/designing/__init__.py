@@ -1,7 +1,7 @@
 """From a wish to dimensions: what may change, what is wished, the search, and designs that are judged.
 
 A mechanism is given with coordinates (`dimensions`), and wishes about its motion (`wishes`, `targets`, read by
-`wish_files`). Least squares with exact derivatives (`poses`, `problem`, `search`) change its dimensions and all
+`wish_files`). Least squares with exact derivatives (`placement`, `problem`, `search`) change its dimensions and all
 configurations at once; the verdict and a traced motion judge what was found (`tracing`, `designs`).
 
 Theory: docs/theory/design.md.

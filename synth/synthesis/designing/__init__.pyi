@@ -10,7 +10,7 @@ from synth.synthesis.designing.designs import (
     design as design,
 )
 from synth.synthesis.designing.dimensions import Dimensions as Dimensions, dimensions_of as dimensions_of
-from synth.synthesis.designing.poses import DesignPoint as DesignPoint
+from synth.synthesis.designing.placement import DesignPoint as DesignPoint
 from synth.synthesis.designing.sizes import (
     BoxSize as BoxSize,
     CellCurvatures as CellCurvatures,

@@ -30,7 +30,7 @@ from synth.linkages.conformed.behaviours import Way, behaviour, link_arcs
 from synth.linkages.conformed.linkage_behaviour import OnSurface
 from synth.linkages.conformed.rates import ConformedChain
 from synth.synthesis.designing.dimensions import ConeDimensions
-from synth.synthesis.designing.poses import Derived, DesignFrame, PosedDesign, stacked
+from synth.synthesis.designing.placement import Derived, DesignConfiguration, DesignFrame, stacked
 from synth.synthesis.designing.problem import DesignProblem
 from synth.synthesis.designing.search import found_from, seeded
 from synth.synthesis.designing.wishes import Goal, GoalWish, Wish, WishedConfiguration, Wishes
@@ -89,9 +89,9 @@ class ConeSide(GoalWish):
         for joint in self.ends:
             frame.joint(joint)
 
-    def measured(self, pose: PosedDesign) -> Derived:
+    def measured(self, configuration: DesignConfiguration) -> Derived:
         """Return the angles."""
-        frame, design = pose.frame, pose.design
+        frame, design = configuration.frame, configuration.design
         lines, by_lines = design.linkage.directions, design.dependence.arrays[0]
         azimuths, slopes = [], []
         for name in self.ends:
@@ -107,7 +107,7 @@ class ConeSide(GoalWish):
             azimuth, by = azimuths[0] + part * span, (1.0 - part) * slopes[0] + part * slopes[1]
             place = np.array([rim * np.sin(azimuth), height, rim * np.cos(azimuth)])
             along = np.array([rim * np.cos(azimuth), 0.0, -rim * np.sin(azimuth)])
-            there = pose.direction(frame.row(self.link), place, along[:, None] * by)
+            there = configuration.direction(frame.row(self.link), place, along[:, None] * by)
             across = float(np.hypot(there.values[0], there.values[2]))
             rows.append(there.through(np.array([np.arccos(-there.values[1])]), np.array([[0.0, 1.0 / across, 0.0]])))
         return stacked(rows)

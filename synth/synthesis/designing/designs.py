@@ -16,7 +16,7 @@ from typing import Any
 
 import numpy as np
 
-from graphs.answer.mechanisms import mobility
+from graphs.answer.mobility import counts_and_ranks
 from graphs.convert.conversions import Mechanism
 from graphs.errors import InvariantError, SynthedraError, UnsolvableError, numbered
 from graphs.mechanism.sheet import Sheet
@@ -35,7 +35,7 @@ from synth.making.drawing.scene.writing import svg_text
 from synth.making.viewer.pages import html_page
 from synth.synthesis.designing.defects import Defect, DefectKind, sentence_of
 from synth.synthesis.designing.dimensions import Designable, Dimensions, dimensions_of, family_begun_at
-from synth.synthesis.designing.poses import PosedDesign
+from synth.synthesis.designing.placement import DesignConfiguration
 from synth.synthesis.designing.problem import DesignProblem
 from synth.synthesis.designing.search import FoundDesign, found_from, seeded, start_of
 from synth.synthesis.designing.targets import beside_target
@@ -467,9 +467,9 @@ class DesignSearch:
         if not isinstance(made, Sheet):
             return None
         angles = [one.angles[name][str(joint)] for joint in problem.frame.joints]
-        pose = PosedDesign(problem.frame, self.family.linkage(one.numbers), np.array(angles))
+        configuration = DesignConfiguration(problem.frame, self.family.linkage(one.numbers), np.array(angles))
         corners = np.zeros((made.vertices, 3))
-        corners[problem.frame.placed] = pose.places(problem.frame.all_vertices()).values.reshape(-1, 3)
+        corners[problem.frame.placed] = configuration.places(problem.frame.all_vertices()).values.reshape(-1, 3)
         return replace(made, coordinates=tuple(map(tuple, corners.tolist())), frames=None)
 
     def page(self, one: Design) -> str:
@@ -542,7 +542,7 @@ def _freedoms_to_keep(mechanism: Mechanism) -> int | None:
     """
     freedoms, _ = _judgement(mechanism)
     if freedoms == 0:
-        counted = mobility(mechanism)
+        counted = counts_and_ranks(mechanism)
         generic = counted.mobility if counted.exact is None else counted.exact.mobility
         if generic is not None and generic <= 0:
             which = f"the mechanism is rigid, and so is a generic one of its type (M = {generic})"
@@ -576,17 +576,17 @@ def _motion(problem: DesignProblem, found: FoundDesign, freedoms: int | None) ->
     One degree of freedom is driven by one joint, several by as many inputs, if configurations have so many.
     """
     wishes = problem.wishes
-    at_pose = wishes.from_pose or any(POSE in wish.configurations for wish in wishes.wishes)
+    at_start = wishes.from_start or any(POSE in wish.configurations for wish in wishes.wishes)
     closure = problem.frame.closure(found.step.design)
     zero = found.step.design.linkage.angles
     if problem.family.sheet is not None and not zero.any():
-        at_pose = False  # a flat sheet is singular: many branches meet there
+        at_start = False  # a flat sheet is singular: many branches meet there
     against = _against_assignment(problem, found)
     if against is not None:
         return TracedMotion((against,))
     passed = {one.name: at for one, at in zip(wishes.configurations, found.angles, strict=True)}
-    names = [*([POSE] if at_pose else []), *problem.asked]
-    angles = [*([zero] if at_pose else []), *(passed[name] for name in problem.asked)]
+    names = [*([POSE] if at_start else []), *problem.asked]
+    angles = [*([zero] if at_start else []), *(passed[name] for name in problem.asked)]
     if not angles or max(found.errors, default=0.0) > DOUBLE.closed:
         return TracedMotion()
     one, drivers = TracedMotion(), problem.together

@@ -33,8 +33,8 @@ from graphs.mechanism.surfaces import Cone, SurfaceLinkage, joint_axes
 from graphs.types import Floats, Ints, JointId, LinkId
 from synth.analysis.folding.derivatives import dependence_on_vertices, largest_panel
 from synth.analysis.motion.derivatives import AxisDependence, dependence_on_axes, derivatives_by_parameters
-from synth.analysis.motion.linkage import PosedLinkage, linkage_of_axes, linkage_of_sheet
-from synth.analysis.moving._configuration_of import Movable, configuration_of, posed_on_surface, sheet_of
+from synth.analysis.motion.linkage import Linkage, linkage_of_axes, linkage_of_sheet
+from synth.analysis.moving._configuration_of import Movable, configuration_of, linkage_of_closed_form, sheet_of
 from synth.catalogue.patterns.generator import Generator
 from synth.linkages.conformed.linkage_behaviour import OnSurface, linkage_on_surfaces
 from synth.synthesis.designing.quadrilaterals import IMAGINARY, QuadrilateralSides, marched, miura_sides, sheet_of_sides
@@ -52,14 +52,14 @@ class DesignedLinkage:
 
     Attributes
     ----------
-    linkage : PosedLinkage
+    linkage : Linkage
     dependence : AxisDependence
-        Of its axes, and of joint angles at the pose, by all n numbers.
+        Of its axes, and of joint angles at the file's configuration, by all n numbers.
     vertices, by_vertices : float[V, 3], float[V, 3, n]
         The vertices of a sheet, in units of the extent, and their derivatives; none of other mechanisms.
     """
 
-    linkage: PosedLinkage
+    linkage: Linkage
     dependence: AxisDependence
     vertices: Floats
     by_vertices: Floats
@@ -112,7 +112,7 @@ def dimensions_of(
 
     Parameters
     ----------
-    mechanism : Mechanism, str, Path, Configuration, PosedLinkage or Generator
+    mechanism : Mechanism, str, Path, Configuration, Linkage or Generator
         A sheet has its vertices, a linkage on a cone azimuths and the cone angle, a generator its parameters but
         counts; any other mechanism has the axes of its joints.
     fixed : collection of str, optional
@@ -358,7 +358,7 @@ def outline_of(sheet: Sheet) -> set[int]:
     }
 
 
-def sheet_linkage(sheet: Sheet, mechanism: SheetMechanism, first: PosedLinkage, slopes: Floats) -> DesignedLinkage:
+def sheet_linkage(sheet: Sheet, mechanism: SheetMechanism, first: Linkage, slopes: Floats) -> DesignedLinkage:
     """Return the linkage of a sheet in the unit of a first one; slopes are of coordinates by numbers."""
     assert sheet.coordinates is not None
     own = linkage_of_sheet(sheet, mechanism)
@@ -393,7 +393,7 @@ class ConeDimensions:
 
     def __init__(self, linkage: OnSurface, fixed: Collection[str] = ()) -> None:
         assert isinstance(linkage.surface, Cone)
-        self._first = posed_on_surface(linkage)
+        self._first = linkage_of_closed_form(linkage)
         self.chain = self._first.graph
         self._arcs = linkage
         self.ground = self.chain.ground if self.chain.ground is not None else next(iter(self.chain.nodes))
@@ -579,5 +579,5 @@ class QuadrilateralDimensions:
         return sheet_linkage(self.mechanism(numbers), self._mechanism, self._first, slopes.reshape(-1, len(numbers)))
 
 
-def _linkage_of(solids: HingedSolids) -> PosedLinkage:
+def _linkage_of(solids: HingedSolids) -> Linkage:
     return linkage_of_axes(solids.chain, solids.axes)

@@ -19,7 +19,7 @@ from graphs.errors import InvariantError, SynthedraError, UnsolvableError
 from graphs.tolerances import DOUBLE
 from graphs.types import Floats, Ints
 from synth.synthesis.designing.dimensions import DesignedLinkage, Dimensions
-from synth.synthesis.designing.poses import Derived, DesignFrame, PosedDesign
+from synth.synthesis.designing.placement import Derived, DesignConfiguration, DesignFrame
 from synth.synthesis.designing.sheet_rules import flat_rules, folded_frames
 from synth.synthesis.designing.wishes import POSE, JointAngle, Wish, WishedConfiguration, Wishes, check_wishes
 
@@ -61,7 +61,7 @@ class DesignStep:
 
 
 def with_between(wishes: Wishes) -> Wishes:
-    """Return wishes with further configurations between each and the next, without inputs; the pose comes first."""
+    """Return wishes with further configurations between each and the next, without inputs; the file's comes first."""
     configurations: list[WishedConfiguration] = []
     for one in wishes.configurations:
         before = configurations[-1].name if configurations else POSE
@@ -233,15 +233,15 @@ class DesignProblem:
         numbers, angles = self.parted(unknowns)
         design = self.family.linkage(numbers)
         parts = [self._closed(design, angles)] if angles else []
-        poses = {POSE: PosedDesign(self.frame, design, design.linkage.angles)}
-        poses |= {
-            one.name: PosedDesign(self.frame, design, at)
+        configurations = {POSE: DesignConfiguration(self.frame, design, design.linkage.angles)}
+        configurations |= {
+            one.name: DesignConfiguration(self.frame, design, at)
             for one, at in zip(self.wishes.configurations, angles, strict=True)
         }
         on_numbers = [rule(design) for rule in self.number_rules]
-        rules = [self._missed(wish, poses) for wish in self.wishes.rules]
+        rules = [self._missed(wish, configurations) for wish in self.wishes.rules]
         rules += [(off, self._by_numbers(by)) for off, by in on_numbers]
-        wishes = [self._missed(wish, poses) for wish in self.wishes.wishes]
+        wishes = [self._missed(wish, configurations) for wish in self.wishes.wishes]
         extent = self.frame.extent
         weights = [
             np.full(len(off), wish.weight / wish.scale(extent))
@@ -258,7 +258,7 @@ class DesignProblem:
         return DesignStep(design, off, ruled, missed, by_off, by_ruled, by_missed, weight, counts, *turns)
 
     def _turns(self, angles: Sequence[Floats]) -> tuple[Floats, Floats]:
-        """Return how far joints turn from each configuration to the next, the pose first, and the derivatives."""
+        """Return how far joints turn from each configuration to the next, the file's first, and the derivatives."""
         if not self.wishes.between:
             return np.zeros(0), np.zeros((0, self.size))
         count, joints = len(angles), self.joints
@@ -287,13 +287,13 @@ class DesignProblem:
             whole[:, columns] = by_angles[:, number * self.joints + free]
         return off, whole
 
-    def _missed(self, wish: Wish, poses: dict[str, PosedDesign]) -> tuple[Floats, Floats]:
+    def _missed(self, wish: Wish, configurations: dict[str, DesignConfiguration]) -> tuple[Floats, Floats]:
         """Return by how much a wish misses, and its derivatives by all unknowns."""
         off, whole = np.zeros(0), np.zeros((0, self.size))
-        for name, part in wish.misses(poses).items():
+        for name, part in wish.misses(configurations).items():
             if not len(whole):
                 off, whole = part.values, np.zeros((len(part.values), self.size))
-            self._add(whole, name, part, poses[name].design)
+            self._add(whole, name, part, configurations[name].design)
         return off, whole
 
     def _add(self, whole: Floats, name: str, part: Derived, design: DesignedLinkage) -> None:
@@ -317,9 +317,9 @@ class DesignProblem:
         def equations(angles: Floats) -> tuple[Floats, Floats]:
             off, jacobian = closure.at(angles)
             values, slopes = [off], [closure.opened(off, jacobian.toarray())]
-            pose = PosedDesign(frame, design, angles)
+            configuration = DesignConfiguration(frame, design, angles)
             for wish in own:
-                part, factor = wish.missed(pose), wish.weight / wish.scale(frame.extent)
+                part, factor = wish.missed(configuration), wish.weight / wish.scale(frame.extent)
                 values.append(factor * part.values)
                 slopes.append(factor * part.by_angles)
             return np.concatenate(values), np.concatenate(slopes)

@@ -140,7 +140,7 @@ def found_from(
 ) -> FoundDesign | None:
     """Return the design to which least squares lead from some numbers; None if they make no mechanism.
 
-    With `follow` configurations begin where the driven joint leads from the pose, else where they fit wishes best.
+    With `follow` configurations begin where the driven joint leads from the file's, else where they fit wishes best.
     """
     if problem.tried(problem.joined(numbers, [problem.zero] * len(problem.inputs))) is None:
         return None
@@ -198,24 +198,24 @@ def _on_one_branch(problem: DesignProblem, found: FoundDesign) -> FoundDesign:
     """Return a design with the configurations to which the driven joint leads, if they meet the wishes as well.
 
     Where wishes say nothing of some links these may be found in another assembly mode at each input. The joint leads
-    from the pose, if the motion begins there, else from the first configuration.
+    from that of the file, if the motion begins there, else from the first configuration.
     """
     driver = problem.drivers[0] if problem.drivers else None
     given = [driven(inputs, driver) for inputs in problem.inputs]
     zero = found.step.design.linkage.angles
-    from_pose = problem.wishes.from_pose and not (problem.family.sheet is not None and not zero.any())
-    goals = given if from_pose else given[1:]
+    from_start = problem.wishes.from_start and not (problem.family.sheet is not None and not zero.any())
+    goals = given if from_start else given[1:]
     if driver is None or None in given or not goals:
         return found
     closure = problem.frame.closure(found.step.design)
     try:
-        start = zero if from_pose else found.angles[0]
+        start = zero if from_start else found.angles[0]
         path = driven_path(closure, start, [driver], np.array(goals, dtype=float)[:, None])
     except SynthedraError:
         return found
     if path.stopped or len(path.angles) != len(goals) + 1:
         return found
-    angles = [*([] if from_pose else found.angles[:1]), *path.angles[1:]]
+    angles = [*([] if from_start else found.angles[:1]), *path.angles[1:]]
     step = problem.tried(problem.joined(found.numbers, [problem.held(k, one) for k, one in enumerate(angles)]))
     if step is None:
         return found
@@ -307,12 +307,12 @@ def fitted_angles(
 ) -> list[Floats]:
     """Return joint angles of each configuration at which it nearly closes and nearly meets its wishes.
 
-    They are found outwards from the pose, each from the fitted configuration whose inputs are nearest; another guess
+    They are found outwards from that of the file, each from the fitted one whose inputs are nearest; another guess
     is taken only where it fits much better.
     """
     count = len(problem.inputs)
     zero = problem.family.linkage(numbers).linkage.angles
-    fitted: dict[int, Floats] = {-1: zero}  # the pose comes first
+    fitted: dict[int, Floats] = {-1: zero}  # that of the file comes first
     reached = _followed(problem, numbers, zero) if follow else {}
     while len(fitted) <= count:
         pairs = ((_apart(problem, number, done, zero), number, done) for number in range(count) for done in fitted)
@@ -329,7 +329,7 @@ def fitted_angles(
 
 
 def _followed(problem: DesignProblem, numbers: Floats, zero: Floats) -> dict[int, Floats]:
-    """Return the configurations to which the driven joint leads from the pose, both ways; none of a flat sheet."""
+    """Return the configurations to which the driven joint leads from the file's, both ways; none of a flat sheet."""
     driver = problem.drivers[0] if problem.drivers else None
     turns = {number: driven(inputs, driver) for number, inputs in enumerate(problem.inputs)}
     given = sorted((angle, number) for number, angle in turns.items() if angle is not None)
@@ -350,7 +350,7 @@ def _followed(problem: DesignProblem, numbers: Floats, zero: Floats) -> dict[int
 
 
 def _apart(problem: DesignProblem, number: int, done: int, zero: Floats) -> float:
-    """Return how far inputs of a configuration are from those of another, or of the pose; without, their places."""
+    """Return how far inputs of a configuration are from those of another, or of the file's; without, their places."""
     inputs = problem.inputs[number]
     other = problem.inputs[done] if done >= 0 else dict(enumerate(zero.tolist()))
     shared = [abs(angle - other[joint]) for joint, angle in inputs.items() if joint in other]
@@ -388,11 +388,11 @@ def closed(problem: DesignProblem, unknowns: Floats) -> FoundDesign | None:
     errors = []
     for number, inputs in enumerate(problem.inputs):
         held = sorted(inputs)
-        pose = corrected(closure, angles[number], held)
+        configuration = corrected(closure, angles[number], held)
         if held:
-            pose = exactly_held(closure, pose, held, np.array([inputs[joint] for joint in held]))
-        angles[number] = pose.angles
-        errors.append(pose.error)
+            configuration = exactly_held(closure, configuration, held, np.array([inputs[joint] for joint in held]))
+        angles[number] = configuration.angles
+        errors.append(configuration.error)
     step = problem.tried(problem.joined(numbers, angles))
     return None if step is None else FoundDesign(numbers, angles, errors, step)
 

@@ -15,7 +15,7 @@ from graphs.geometry import crossing
 from graphs.mechanism.sheet import Sheet
 from graphs.tolerances import DOUBLE
 from graphs.types import Floats, Ints
-from synth.synthesis.designing.poses import Derived, DesignFrame, PosedDesign
+from synth.synthesis.designing.placement import Derived, DesignConfiguration, DesignFrame
 from synth.synthesis.designing.quadrilaterals import IMAGINARY, cell_curvatures
 from synth.synthesis.designing.wishes import Goal, GoalWish, PointsWish, ShapeWish, Wish
 
@@ -90,9 +90,11 @@ class BoxSize(GoalWish, PointsWish):
         """Return the unit of its misses."""
         return extent**2 if self.size_of == "area" else extent
 
-    def measured(self, pose: PosedDesign) -> Derived:
+    def measured(self, configuration: DesignConfiguration) -> Derived:
         """Return the size."""
-        return _measured_size(self.size_of, pose.places(self.measured_points(pose.frame)), self.thickness)
+        return _measured_size(
+            self.size_of, configuration.places(self.measured_points(configuration.frame)), self.thickness
+        )
 
     def __str__(self) -> str:
         return f"{self.size_of} at {self.at}"
@@ -132,11 +134,12 @@ class SizeRatio(PointsWish):
         """Both configurations."""
         return (self.at, self.over)
 
-    def misses(self, poses: Mapping[str, PosedDesign]) -> dict[str, Derived]:
+    def misses(self, configurations: Mapping[str, DesignConfiguration]) -> dict[str, Derived]:
         """Return how far the ratio is off, by both configurations."""
-        points = self.measured_points(poses[self.at].frame)
+        points = self.measured_points(configurations[self.at].frame)
         one, other = (
-            _measured_size(self.size_of, poses[name].places(points), self.thickness) for name in self.configurations
+            _measured_size(self.size_of, configurations[name].places(points), self.thickness)
+            for name in self.configurations
         )
         ratio = one.values / other.values
         off = self.goal.misses(ratio)
@@ -182,10 +185,10 @@ class LinkArc(GoalWish, ShapeWish):
         if not set(frame.graph.joints[frame.joints[places[0]]]) & set(frame.graph.joints[frame.joints[places[1]]]):
             raise InvariantError("arc", f"joints {' and '.join(self.joints)} are on no one link", "two of one link")
 
-    def measured(self, pose: PosedDesign) -> Derived:
+    def measured(self, configuration: DesignConfiguration) -> Derived:
         """Return the arc."""
-        first, second = (pose.frame.joint(name) for name in self.joints)
-        dependence, directions = pose.design.dependence, pose.design.linkage.directions
+        first, second = (configuration.frame.joint(name) for name in self.joints)
+        dependence, directions = configuration.design.dependence, configuration.design.linkage.directions
         turns = [
             -crossing(directions[joint]) @ dependence.arrays[0][6 * joint : 6 * joint + 3] for joint in (first, second)
         ]
@@ -199,7 +202,7 @@ class LinkArc(GoalWish, ShapeWish):
         by_a = (cosine * np.cross(b, cross) / sine - sine * b) / (sine**2 + cosine**2)
         by_b = (cosine * np.cross(cross, a) / sine - sine * a) / (sine**2 + cosine**2)
         slope = by_a @ turns[0] + by_b @ turns[1]
-        none = np.zeros((1, len(pose.angles)))
+        none = np.zeros((1, len(configuration.angles)))
         return Derived(np.array([np.arctan2(sine, cosine)]), none, slope[None])
 
     def __str__(self) -> str:
@@ -233,9 +236,9 @@ class EqualArcs(ShapeWish):
         for pair in self.arcs:
             LinkArc(joints=pair, goal=self._any).check(frame)
 
-    def missed(self, pose: PosedDesign) -> Derived:
+    def missed(self, configuration: DesignConfiguration) -> Derived:
         """Return the difference of the arcs."""
-        one, other = (LinkArc(joints=pair, goal=self._any).measured(pose) for pair in self.arcs)
+        one, other = (LinkArc(joints=pair, goal=self._any).measured(configuration) for pair in self.arcs)
         return one - other
 
     def __str__(self) -> str:
@@ -266,11 +269,11 @@ class SheetArea(GoalWish, ShapeWish):
         """Check that there are panels."""
         frame.all_vertices()
 
-    def measured(self, pose: PosedDesign) -> Derived:
+    def measured(self, configuration: DesignConfiguration) -> Derived:
         """Return the area."""
-        sheet = pose.frame.family.sheet
+        sheet = configuration.frame.family.sheet
         assert sheet is not None
-        vertices, extent = pose.design.vertices, pose.frame.extent
+        vertices, extent = configuration.design.vertices, configuration.frame.extent
         slope, total = np.zeros((len(vertices), 3)), 0.0
         for face in sheet.faces:
             around = list(face)
@@ -279,8 +282,8 @@ class SheetArea(GoalWish, ShapeWish):
             size = float(np.linalg.norm(vector))
             total += size
             slope[around] += np.cross(vertices[after] - vertices[before], vector / size) / 2.0
-        by = extent**2 * np.einsum("vi,vin->n", slope, pose.design.by_vertices)
-        none = np.zeros((1, len(pose.angles)))
+        by = extent**2 * np.einsum("vi,vin->n", slope, configuration.design.by_vertices)
+        none = np.zeros((1, len(configuration.angles)))
         return Derived(np.array([extent**2 * total]), none, by[None])
 
     def __str__(self) -> str:
@@ -295,14 +298,14 @@ def _sheet_of(frame: DesignFrame, what: str) -> Sheet:
     return sheet
 
 
-def _lengths(pose: PosedDesign, edges: Ints) -> Derived:
+def _lengths(configuration: DesignConfiguration, edges: Ints) -> Derived:
     """Return the lengths of edges int[E, 2] of a sheet as it is drawn."""
-    extent, design = pose.frame.extent, pose.design
+    extent, design = configuration.frame.extent, configuration.design
     along = design.vertices[edges[:, 1]] - design.vertices[edges[:, 0]]
     sizes = np.linalg.norm(along, axis=1)
     by_ends = design.by_vertices[edges[:, 1]] - design.by_vertices[edges[:, 0]]
     slopes = np.einsum("ei,ein->en", along / sizes[:, None], by_ends)
-    return Derived(extent * sizes, np.zeros((len(edges), len(pose.angles))), extent * slopes)
+    return Derived(extent * sizes, np.zeros((len(edges), len(configuration.angles))), extent * slopes)
 
 
 def _check_edges(frame: DesignFrame, edges: tuple[tuple[int, int], ...]) -> None:
@@ -341,9 +344,9 @@ class EdgeLengths(GoalWish, ShapeWish):
         """Check the edges."""
         _check_edges(frame, self.edges)
 
-    def measured(self, pose: PosedDesign) -> Derived:
+    def measured(self, configuration: DesignConfiguration) -> Derived:
         """Return the lengths."""
-        return _lengths(pose, np.array(self.edges or _sheet_of(pose.frame, "edges").edges))
+        return _lengths(configuration, np.array(self.edges or _sheet_of(configuration.frame, "edges").edges))
 
     def __str__(self) -> str:
         names = ", ".join(f"{a}-{b}" for a, b in self.edges)
@@ -378,9 +381,9 @@ class EqualLengths(ShapeWish):
             raise InvariantError("edges", f"{len(self.edges)} of equal length", "2 or more")
         _check_edges(frame, self.edges)
 
-    def missed(self, pose: PosedDesign) -> Derived:
+    def missed(self, configuration: DesignConfiguration) -> Derived:
         """Return the differences of each from the first."""
-        lengths, count = _lengths(pose, np.array(self.edges)), len(self.edges)
+        lengths, count = _lengths(configuration, np.array(self.edges)), len(self.edges)
         less = np.hstack([-np.ones((count - 1, 1)), np.eye(count - 1)])
         return lengths.through(less @ lengths.values, less)
 
@@ -433,13 +436,15 @@ class PanelCorners(GoalWish, ShapeWish):
             chosen.append(of[b, frozenset((a, c))])
         return chosen
 
-    def measured(self, pose: PosedDesign) -> Derived:
+    def measured(self, configuration: DesignConfiguration) -> Derived:
         """Return the angles, of re-entrant corners more than pi; a panel that was turned over has such ones."""
-        sheet, vertices = _sheet_of(pose.frame, "corners"), pose.design.vertices
+        sheet, vertices = _sheet_of(configuration.frame, "corners"), configuration.design.vertices
         faces = [list(around) for around in sheet.faces]
         corners = [(face, *_corner(faces[face], place)) for face, place in self._places(sheet)]
         face, a, b, c = np.array(corners).T
-        now, first = (np.array([_normal(of[around]) for around in faces]) for of in (vertices, pose.frame.drawn))
+        now, first = (
+            np.array([_normal(of[around]) for around in faces]) for of in (vertices, configuration.frame.drawn)
+        )
         normals = (now * np.sign((now * first).sum(axis=1, keepdims=True)))[face]
         ahead, back = vertices[c] - vertices[b], vertices[a] - vertices[b]
         cosine, across = (ahead * back).sum(axis=1), np.cross(ahead, back)
@@ -448,10 +453,10 @@ class PanelCorners(GoalWish, ShapeWish):
         # The normal turns about lines in the plane of the panel, so that sines do not change by that.
         by_ahead = (cosine[:, None] * np.cross(back, normals) - sine[:, None] * back) / square
         by_back = (cosine[:, None] * np.cross(normals, ahead) - sine[:, None] * ahead) / square
-        by = pose.design.by_vertices
+        by = configuration.design.by_vertices
         slopes = np.einsum("ci,cin->cn", by_ahead, by[c] - by[b]) + np.einsum("ci,cin->cn", by_back, by[a] - by[b])
         angles = np.remainder(np.arctan2(sine, cosine), 2.0 * pi)
-        return Derived(angles, np.zeros((len(angles), len(pose.angles))), slopes)
+        return Derived(angles, np.zeros((len(angles), len(configuration.angles))), slopes)
 
     def __str__(self) -> str:
         names = ", ".join(f"{a}-{b}-{c}" for a, b, c in self.corners)
@@ -532,14 +537,14 @@ class Symmetry(ShapeWish):
             raise InvariantError("symmetry", f"the sheet has no {self}", "a line or point that maps edges to edges")
         return images
 
-    def missed(self, pose: PosedDesign) -> Derived:
+    def missed(self, configuration: DesignConfiguration) -> Derived:
         """Return images of vertices less the vertices that they are to be, three coordinates each."""
-        frame, design = pose.frame, pose.design
+        frame, design = configuration.frame, configuration.design
         images, (matrix, shift) = self._images(frame), self._moved()
         places = design.vertices * frame.extent + frame.middle
         off = places @ matrix.T + shift - places[images]
         slopes = frame.extent * (np.einsum("ij,vjn->vin", matrix, design.by_vertices) - design.by_vertices[images])
-        return Derived(off.ravel(), np.zeros((off.size, len(pose.angles))), slopes.reshape(off.size, -1))
+        return Derived(off.ravel(), np.zeros((off.size, len(configuration.angles))), slopes.reshape(off.size, -1))
 
     def __str__(self) -> str:
         if self.mirror is None:
@@ -581,10 +586,10 @@ class CellCurvatures(Wish):
         if not any(self.principal):
             raise InvariantError("curvature", "no curvature", "a principal curvature that is not 0")
 
-    def missed(self, pose: PosedDesign) -> Derived:
+    def missed(self, configuration: DesignConfiguration) -> Derived:
         """Return how far curvatures of all cells are off."""
-        grid, frame = getattr(pose.frame.family, "grid"), pose.frame  # noqa: B009  # of that family alone
-        there = pose.places(frame.all_vertices())
+        grid, frame = getattr(configuration.frame.family, "grid"), configuration.frame  # noqa: B009  # of that family alone
+        there = configuration.places(frame.all_vertices())
         size = len(there.values)
         moved = there.values[:, None] + 1j * IMAGINARY * np.eye(size)
         off = self._off(moved.reshape(*grid, 3, size))

@@ -11,7 +11,7 @@ from typing import Any
 
 from graphs.errors import FileError, SynthedraError, shown
 from graphs.files.text import Checker, load_json
-from synth.synthesis.designing.poses import DesignPoint
+from synth.synthesis.designing.placement import DesignPoint
 from synth.synthesis.designing.sizes import (
     BoxSize,
     CellCurvatures,

@@ -17,7 +17,7 @@ import numpy as np
 from graphs.errors import InvariantError
 from graphs.geometry import unit
 from graphs.types import Floats
-from synth.synthesis.designing.poses import Derived, DesignFrame, DesignPoint, PosedDesign, stacked
+from synth.synthesis.designing.placement import Derived, DesignConfiguration, DesignFrame, DesignPoint, stacked
 from synth.synthesis.designing.targets import Target
 
 POSE = "pose"
@@ -111,14 +111,14 @@ class Wish:
         alike = replace(other, weight=self.weight, goal=mine)  # type: ignore[call-arg]
         return alike == self and bool(mine.excludes(goal))
 
-    def misses(self, poses: Mapping[str, PosedDesign]) -> dict[str, Derived]:
+    def misses(self, configurations: Mapping[str, DesignConfiguration]) -> dict[str, Derived]:
         """Return by how much it misses, at one configuration, or the parts by each of several.
 
         Values are the same for all; derivatives by numbers stand with the first.
         """
-        return {self.at: self.missed(poses[self.at])}
+        return {self.at: self.missed(configurations[self.at])}
 
-    def missed(self, pose: PosedDesign) -> Derived:
+    def missed(self, configuration: DesignConfiguration) -> Derived:
         """Return by how much it misses at its configuration."""
         raise NotImplementedError
 
@@ -154,13 +154,13 @@ class GoalWish(Wish):
 
     goal: Goal
 
-    def measured(self, pose: PosedDesign) -> Derived:
+    def measured(self, configuration: DesignConfiguration) -> Derived:
         """Return what is measured at its configuration."""
         raise NotImplementedError
 
-    def missed(self, pose: PosedDesign) -> Derived:
+    def missed(self, configuration: DesignConfiguration) -> Derived:
         """Return by how much the measure is off; within limits it has no derivatives."""
-        measured = self.measured(pose)
+        measured = self.measured(configuration)
         off = self.goal.misses(measured.values)
         slopes = np.ones(len(off)) if self.goal.equals is not None else (off != 0.0).astype(float)
         return Derived(off, slopes[:, None] * measured.by_angles, slopes[:, None] * measured.by_numbers)
@@ -254,9 +254,9 @@ class LinkOrientation(Wish):
         cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
         return np.asarray(np.eye(3) + 2.0 * w * cross + 2.0 * cross @ cross)
 
-    def missed(self, pose: PosedDesign) -> Derived:
+    def missed(self, configuration: DesignConfiguration) -> Derived:
         """Return the difference of rotation matrices: its norm is 2 sin(angle / 2) of the rotation between them."""
-        off = pose.rotation(pose.frame.row(self.link))
+        off = configuration.rotation(configuration.frame.row(self.link))
         return off.through((off.values - self.matrix.ravel()) / sqrt(2.0), np.eye(9) / sqrt(2.0))
 
     def size(self, values: Floats) -> float:
@@ -300,10 +300,10 @@ class LinkDirection(Wish):
         if not (np.any(self.vector) and np.any(self.equals)):
             raise InvariantError("direction", "a direction of length 0", "a vector that is not zero")
 
-    def missed(self, pose: PosedDesign) -> Derived:
+    def missed(self, configuration: DesignConfiguration) -> Derived:
         """Return the difference of unit vectors."""
-        numbers = pose.design.dependence.twists.shape[1]
-        there = pose.direction(pose.frame.row(self.link), unit(self.vector), np.zeros((3, numbers)))
+        numbers = configuration.design.dependence.twists.shape[1]
+        there = configuration.direction(configuration.frame.row(self.link), unit(self.vector), np.zeros((3, numbers)))
         return there.through(there.values - unit(self.equals), np.eye(3))
 
     def size(self, values: Floats) -> float:
@@ -347,9 +347,9 @@ class JointAngle(Wish):
         off = float(self.goal.misses(np.array([angle]))[0])
         return float(np.remainder(off + np.pi, 2.0 * np.pi) - np.pi) if self.goal.equals is not None else off
 
-    def missed(self, pose: PosedDesign) -> Derived:
+    def missed(self, configuration: DesignConfiguration) -> Derived:
         """Return how far the angle is off."""
-        angle = pose.angle(pose.frame.joint(self.joint))
+        angle = configuration.angle(configuration.frame.joint(self.joint))
         off = np.array([self.off(float(angle.values[0]))])
         return angle.through(off, np.diag((off != 0.0) | (self.goal.equals is not None)).astype(float))
 
@@ -389,9 +389,9 @@ class PointPlace(Wish):
         pairs = zip(self.equals, other.equals, strict=True) if isinstance(other, PointPlace) else ()
         return any(one is not None and two is not None and one != two for one, two in pairs)
 
-    def missed(self, pose: PosedDesign) -> Derived:
+    def missed(self, configuration: DesignConfiguration) -> Derived:
         """Return the difference of the coordinates that are given."""
-        there = pose.places([self.point])
+        there = configuration.places([self.point])
         given = [axis for axis in range(3) if self.equals[axis] is not None]
         wanted = np.array([self.equals[axis] for axis in given], dtype=float)
         return there.through(there.values[given] - wanted, np.eye(3)[given])
@@ -427,9 +427,9 @@ class PointDistance(GoalWish):
         for point in self.points:
             frame.check_point(point)
 
-    def measured(self, pose: PosedDesign) -> Derived:
+    def measured(self, configuration: DesignConfiguration) -> Derived:
         """Return the distance; of points in one place its derivative is zero."""
-        both = pose.places(self.points)
+        both = configuration.places(self.points)
         along = both.values[3:] - both.values[:3]
         size = float(np.linalg.norm(along))
         direction = along / size if size > 0.0 else along
@@ -462,10 +462,10 @@ class PointsOn(PointsWish):
     target: Target
     unit = "length"
 
-    def missed(self, pose: PosedDesign) -> Derived:
+    def missed(self, configuration: DesignConfiguration) -> Derived:
         """Return how far each point is from the target, to first order."""
-        points = self.measured_points(pose.frame)
-        there = pose.places(points)
+        points = self.measured_points(configuration.frame)
+        there = configuration.places(points)
         off, slopes = self.target.missed(there.values.reshape(-1, 3))
         rows = off.shape[1]
         by = np.zeros((len(points) * rows, len(there.values)))
@@ -516,10 +516,10 @@ class TransmissionAngle(Wish):
         """Never: the larger of two least angles meets both."""
         return False
 
-    def missed(self, pose: PosedDesign) -> Derived:
+    def missed(self, configuration: DesignConfiguration) -> Derived:
         """Return how far the angle is below its least value."""
-        frame = pose.frame
-        near, axis, far = (pose.axis(frame.joint(name)) for name in (self.near, self.joint, self.far))
+        frame = configuration.frame
+        near, axis, far = (configuration.axis(frame.joint(name)) for name in (self.near, self.joint, self.far))
         both = stacked([near, axis, far])
         angle, slope = _dihedral(near.values, axis.values, far.values)
         folded = angle if angle <= np.pi / 2 else np.pi - angle
@@ -598,9 +598,9 @@ class Wishes:
     between : int
         Closed configurations that are put between each and the next, and at first kept near to each other: so that a
         motion leads from one to the next.
-    from_pose : bool
-        Whether the motion through the configurations begins at the pose, even if no wish names it. A flat sheet is
-        singular and no such configuration: many branches meet there.
+    from_start : bool
+        Whether the motion through the configurations begins at that of the file, even if no wish names it. A flat sheet
+        is singular and no such configuration: many branches meet there.
 
     Examples
     --------
@@ -619,7 +619,7 @@ class Wishes:
     closed_form: bool = False
     in_order: bool = True
     between: int = 0
-    from_pose: bool = False
+    from_start: bool = False
 
     def __post_init__(self) -> None:
         if len(set(self.names)) < len(self.names):

@@ -172,7 +172,7 @@ class CandidateSearch:
                 joint_of[f"{one}-{other}"] = self._joint_name(joint)
         document = wishes_document(renamed(task.wishes, link_of, joint_of))
         # wishes say how bodies move from where they are, so the motion through the configurations begins there
-        self.wishes = replace(wishes_of_document(document, task.place), from_pose=True)
+        self.wishes = replace(wishes_of_document(document, task.place), from_start=True)
 
     def _link_name(self, link: LinkId) -> str:
         return str(list(self.type.mechanism.nodes).index(link)) if self.type.source == "scd" else str(link)

@@ -84,7 +84,7 @@ def planar_parts(chain: SCGraph) -> list[tuple[Sequence[JointId], frozenset[str]
 def _across(wish: Wish, links: frozenset[str]) -> list[Floats]:
     """Return vectors float[3] to which the normal of the plane must be perpendicular, for a wish about some links.
 
-    A rotation in a plane is about its normal; the changes of a direction and of a place from the pose lie in it.
+    A rotation in a plane is about its normal; changes of a direction and of a place from those of the file lie in it.
     """
     if wish.at == POSE:
         return []

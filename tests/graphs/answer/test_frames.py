@@ -4,7 +4,7 @@ import json
 
 import pytest
 
-from graphs.answer.mechanisms import mobility
+from graphs.answer.mobility import counts_and_ranks
 from graphs.files.formats import read
 
 FAN = {
@@ -28,16 +28,20 @@ def sheet(tmp_path):
 
 
 def test_counts_and_ranks_are_those_of_the_frame(sheet):
-    key, other = mobility(sheet, pose=0), mobility(sheet, pose=1)
+    key, other = counts_and_ranks(sheet, frame=0), counts_and_ranks(sheet, frame=1)
     assert (key.links, key.joints, key.exact.mobility) == (4, 4, 1)
     assert (other.links, other.joints, other.exact.mobility) == (3, 3, 0)
-    alone = mobility(sheet.frames.frame(1))
-    assert (other.counts, other.equations, other.pose.dof) == (alone.counts, alone.equations, alone.pose.dof)
-    assert other.overconstraint == other.pose.dof - other.mobility
+    alone = counts_and_ranks(sheet.frames.frame(1))
+    assert (other.counts, other.equations, other.infinitesimal.dof) == (
+        alone.counts,
+        alone.equations,
+        alone.infinitesimal.dof,
+    )
+    assert other.overconstraint == other.infinitesimal.dof - other.mobility
 
 
 def test_it_is_said_whose_numbers_they_are(sheet):
     note = "all numbers are those of frame 1"
-    assert note in mobility(sheet, pose=1).warnings
-    assert note not in mobility(sheet).warnings
-    assert any("with flat edges hinged: links 4" in line for line in mobility(sheet, pose=1).warnings)
+    assert note in counts_and_ranks(sheet, frame=1).warnings
+    assert note not in counts_and_ranks(sheet).warnings
+    assert any("with flat edges hinged: links 4" in line for line in counts_and_ranks(sheet, frame=1).warnings)

@@ -4,7 +4,7 @@ import pytest
 from random_joints import random_jointed
 from second_methods import freedoms_by_screws
 
-from graphs.answer.mechanisms import mobility
+from graphs.answer.mobility import counts_and_ranks
 from graphs.answer.mobility_of_joints import passive_freedoms
 from graphs.joints import JointedLinkage, JointKind, placed
 from graphs.joints.linkage import legs
@@ -20,16 +20,16 @@ PLATFORMS = {
 @pytest.mark.parametrize("name", PLATFORMS)
 def test_platforms_have_the_freedoms_of_their_sources(name):
     freedoms, passive = PLATFORMS[name]
-    answer = mobility(generate(name).mechanism)
-    assert (answer.mobility, answer.pose.dof, answer.counts["passive"]) == (freedoms, freedoms, passive)
+    answer = counts_and_ranks(generate(name).mechanism)
+    assert (answer.mobility, answer.infinitesimal.dof, answer.counts["passive"]) == (freedoms, freedoms, passive)
     assert answer.overconstraint == 0
     assert any("legs that spin" in note for note in answer.warnings) == bool(passive)
 
 
 def test_a_type_without_places_has_no_pose():
     linkage = generate("6-sps").mechanism
-    answer = mobility(JointedLinkage(linkage.chain, linkage.kinds))
-    assert (answer.mobility, answer.pose, answer.counts["passive"]) == (12, None, 6)
+    answer = counts_and_ranks(JointedLinkage(linkage.chain, linkage.kinds))
+    assert (answer.mobility, answer.infinitesimal, answer.counts["passive"]) == (12, None, 6)
     assert "for a generic realisation, placed at random, the result is 12 degrees of freedom" in " ".join(
         answer.warnings
     )
@@ -37,14 +37,14 @@ def test_a_type_without_places_has_no_pose():
 
 def test_an_exact_rank_is_not_passed_over_in_silence():
     linkage = generate("3-rps").mechanism
-    assert any("no exact rank" in note for note in mobility(linkage, exact=True).warnings)
-    assert not any("no exact rank" in note for note in mobility(linkage).warnings)
+    assert any("no exact rank" in note for note in counts_and_ranks(linkage, exact=True).warnings)
+    assert not any("no exact rank" in note for note in counts_and_ranks(linkage).warnings)
 
 
 def test_a_slide_alone_is_counted_as_one_joint():
     chain = SCGraph(2, {"p": (0, 1)})
-    answer = mobility(placed(JointedLinkage(chain, {"p": JointKind.PRISMATIC})))
-    assert (answer.mobility, answer.pose.dof, answer.equations["loop_form"].value) == (1, 1, 1)
+    answer = counts_and_ranks(placed(JointedLinkage(chain, {"p": JointKind.PRISMATIC})))
+    assert (answer.mobility, answer.infinitesimal.dof, answer.equations["loop_form"].value) == (1, 1, 1)
     assert (answer.links, answer.joints, answer.counts["revolutes"]) == (2, 1, 6)
 
 
@@ -61,7 +61,7 @@ def test_a_link_between_two_balls_spins(joints, row):
     linkage = JointedLinkage(SCGraph(len({end for ends in joints.values() for end in ends}), joints), kinds)
     (passive,) = passive_freedoms(placed(linkage))
     assert (passive.joints, passive.freedoms, passive.spins) == (row, 1, True)
-    assert mobility(linkage).counts["passive"] == 1
+    assert counts_and_ranks(linkage).counts["passive"] == 1
 
 
 def test_an_open_arm_has_a_spin_for_each_two_balls_in_a_row():

@@ -5,7 +5,7 @@ import pytest
 from random_joints import random_jointed
 from second_methods import freedoms_by_screws
 
-from graphs.answer.mechanisms import mobility
+from graphs.answer.mobility import counts_and_ranks
 from graphs.answer.mobility_of_joints import report_of_joints, with_planar_loops
 from graphs.errors import InvariantError
 from graphs.files.formats import read
@@ -87,10 +87,10 @@ def test_three_legs_that_end_in_one_point():
 
 
 def test_a_slider_crank_is_not_said_to_be_of_revolutes():
-    answer = mobility(ring("RRRP"))
+    answer = counts_and_ranks(ring("RRRP"))
     assert (answer.mobility, answer.links, answer.joints) == (-2, 4, 4)
     assert "if all are planar (centre infinite), Eq. 1 gives 1" in " ".join(answer.warnings)
-    planar = mobility(ring("RRRP", PLANAR))
+    planar = counts_and_ranks(ring("RRRP", PLANAR))
     assert (planar.mobility, planar.mechanism_class, planar.counts["general_member"]) == (1, "planar", 1)
     assert not planar.equations["polyhedron"].applies
 
@@ -99,11 +99,11 @@ def test_a_slider_crank_is_found_to_be_planar_by_where_its_joints_are():
     up = ((0.0, 0.0, 1.0),)
     places = {0: ((0, 0, 0), up), 1: ((1, 1, 0), up), 2: ((3, 0, 0.5), up), 3: ((3, 0, 0), ((1.0, 0.0, 0.0),))}
     lying = {joint: JointPlace(*place) for joint, place in places.items()}
-    answer = mobility(ring("RRRP", places=lying))
-    assert (answer.mobility, answer.pose.dof, answer.overconstraint) == (1, 1, 0)
+    answer = counts_and_ranks(ring("RRRP", places=lying))
+    assert (answer.mobility, answer.infinitesimal.dof, answer.overconstraint) == (1, 1, 0)
     assert "1 loop planar at this configuration" in " ".join(answer.warnings)
     leaning = lying | {3: JointPlace((3, 0, 0), ((1.0, 0.0, 0.3),))}
-    assert mobility(ring("RRRP", places=leaning)).mobility == -2
+    assert counts_and_ranks(ring("RRRP", places=leaning)).mobility == -2
     assert with_planar_loops(ring("RRRP")).mobility == -2
 
 
@@ -122,7 +122,7 @@ def test_random_members_of_planar_and_spherical_loops_have_their_centres():
     cranks = JointedLinkage(two, {3: "P", 6: "P"})
     mixed = SCGraph(6, joints, [Loop((0, 1, 2, 3), "infinite"), Loop((0, 4, 5, 6))], ground=0)
     for linkage in (cranks, JointedLinkage(mixed, {3: "P"})):
-        assert (linkage.mobility, mobility(placed(linkage)).pose.dof) == (1, 1)
+        assert (linkage.mobility, counts_and_ranks(placed(linkage)).infinitesimal.dof) == (1, 1)
 
 
 @pytest.mark.parametrize("name", ["stewart", "6-sps", "3-rps", "6-uuu"])
@@ -156,8 +156,8 @@ def general(linkage, seed):
 def test_parallel_axes_of_solids_make_planar_loops(data):
     """Roberts' seven-bar: no loop is declared planar; by M = 3 (7 - 1) - 2 * 9 it is rigid, and it moves."""
     linkage = read(data / "joints" / "roberts.json")
-    answer = mobility(linkage)
-    assert (answer.mobility, answer.mechanism_class, answer.pose.dof) == (0, "planar", 1)
+    answer = counts_and_ranks(linkage)
+    assert (answer.mobility, answer.mechanism_class, answer.infinitesimal.dof) == (0, "planar", 1)
     assert "3 loops whose axes are parallel count as planar" in answer.warnings
     door = HingedSolids(SCGraph(2, [(0, 1)]), {0: ((0, 0, 0), (0, 0, 1))})
-    assert not any("planar" in note for note in mobility(door).warnings)
+    assert not any("planar" in note for note in counts_and_ranks(door).warnings)

@@ -40,7 +40,7 @@ def test_the_declared_k_is_confirmed(arms, number):
     (note,) = notes_on_centres(model)
     assert note.startswith(f"declared k = 4, confirmed: a = a' and b = b' at all {number} pairs")
     answer = synth.mobility(model)
-    assert answer.mobility == answer.exact.mobility == answer.pose.dof == number - 2
+    assert answer.mobility == answer.exact.mobility == answer.infinitesimal.dof == number - 2
     assert note in answer.warnings
     one = scissors_pairs(model)[0]
     assert one.arms[0] == pytest.approx(arms[1])
@@ -82,7 +82,7 @@ def test_rods_of_a_centre_meet_there_or_do_not():
     model = PolyhedronModel(bare.nodes, bare.edges, coordinates=places, centres=bare.centres, links=dict(bare.links))
     (note,) = notes_on_centres(model)
     assert note.startswith("declared k = 3: the lines of its 4 rods meet in a point")
-    assert synth.mobility(model).pose.dof == 1
+    assert synth.mobility(model).infinitesimal.dof == 1
     off = {**places, 0: (0.3, 0.1, 2.0)}
     (note,) = notes_on_centres(PolyhedronModel(bare.nodes, bare.edges, coordinates=off, centres=bare.centres))
     assert note.startswith("declared k = 3, refused: the lines of its 4 rods do not meet in a point")

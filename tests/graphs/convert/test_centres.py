@@ -70,7 +70,7 @@ def test_a_tube_of_parallel_creases_is_planar():
     merged = [((i, i + 6), "V") for i in range(12)] + [((6 + i, 6 + (i + 1) % 6), "F") for i in range(6)]
     edges, letters = tuple(edge for edge, _ in merged), "".join(letter for _, letter in merged)
     answer = synth.mobility(Sheet(18, edges, letters, faces, tuple(places)))
-    assert (answer.links, answer.joints, answer.mobility, answer.pose.dof) == (6, 6, 3, 3)
+    assert (answer.links, answer.joints, answer.mobility, answer.infinitesimal.dof) == (6, 6, 3, 3)
 
 
 def test_lines_that_meet():

@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from graphs.answer.mechanisms import mobility
+from graphs.answer.mobility import counts_and_ranks
 from graphs.convert.tracing import Lines, trace_sheet
 from graphs.files.formats import read
 
@@ -80,7 +80,7 @@ def test_an_answer_has_the_places_and_first_of_all_what_was_left_out(tmp_path):
         '<svg xmlns="http://www.w3.org/2000/svg"><rect width="10" height="10" stroke="black"/>'
         f'{lines}<path d="M2 0v10" stroke="blue"/><path d="M0 0L1 1" stroke="orange"/></svg>'
     )
-    answer = mobility(read(path))
+    answer = counts_and_ranks(read(path))
     told = str(answer).splitlines()
     assert told[0].startswith("1 shape with strokes not understood left out: 1 #ffa500; state what they are by")
     [line] = [row for row in told if "crossings" in row]

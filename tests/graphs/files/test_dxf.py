@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from commands import run
 
-from graphs.answer.mechanisms import mobility
+from graphs.answer.mobility import counts_and_ranks
 from graphs.errors import FileError
 from graphs.files.formats import read, write
 
@@ -136,7 +136,7 @@ def test_broken_files_are_told_of_in_a_line(text, found, tmp_path):
 def test_a_template_is_read_back_as_the_mechanism_it_is_of(data, tmp_path):
     bird = data / "patterns" / "bird-base.fold"
     run("template", bird, "--size", 150, "-o", tmp_path / "a.dxf")
-    given, again = mobility(read(bird)).to_json(), mobility(read(tmp_path / "a.dxf")).to_json()
+    given, again = counts_and_ranks(read(bird)).to_json(), counts_and_ranks(read(tmp_path / "a.dxf")).to_json()
     for key in ("class", "links", "joints", "loops", "centres", "mobility"):
         assert again[key] == given[key]
 

@@ -13,7 +13,7 @@ from graphs.convert.tracing import Lines
 from graphs.errors import FileError
 from graphs.files import bare, formats, losses
 from graphs.files.patterns import dxf, legend
-from graphs.files.patterns.fold import fold_text_of_poses
+from graphs.files.patterns.fold import fold_text_of_frames
 from graphs.files.patterns.lines import traced_sheet
 from graphs.files.patterns.obj import obj_text
 from graphs.files.text import Checker
@@ -108,7 +108,7 @@ def test_lines_are_written_as_dxf_and_obj():
 
 def test_poses_are_frames_of_fold():
     pose = replace(TRIANGLE, coordinates=((0, 0, 0), (1, 0, 0), (0, 0, 1)))
-    [frame] = loads(fold_text_of_poses(TRIANGLE, [pose]))["file_frames"]
+    [frame] = loads(fold_text_of_frames(TRIANGLE, [pose]))["file_frames"]
     assert frame["vertices_coords"] == [[0, 0, 0], [1, 0, 0], [0, 0, 1]]
 
 

@@ -3,7 +3,7 @@
 import pytest
 from real_patterns import names_of_patterns
 
-from graphs.answer.mechanisms import mobility
+from graphs.answer.mobility import counts_and_ranks
 from graphs.errors import FileError, InvariantError, UnsolvableError
 from graphs.files.formats import WRITERS, read, write
 
@@ -17,7 +17,7 @@ PATTERNS = [name if name in SMALL else pytest.param(name, marks=pytest.mark.slow
 
 def numbers(mechanism):
     """The counts with the exact mobility, and the freedoms as it lies."""
-    told = mobility(mechanism).to_json()
+    told = counts_and_ranks(mechanism).to_json()
     exact, pose = told["exact"], told["pose"]
     counts = [*(told[key] for key in COUNTS), exact and exact["mobility"]]
     return counts, pose and [pose[key] for key in POSE]

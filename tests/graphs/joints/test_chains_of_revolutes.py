@@ -13,7 +13,7 @@ from graphs.joints.linkage import legs
 from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.solids import HingedSolids
-from graphs.rank.pose import pose_mobility_of_axes
+from graphs.rank.infinitesimal import infinitesimal_mobility_of_axes
 
 MANY = [*range(20), *(pytest.param(seed, marks=pytest.mark.slow) for seed in range(20, 1000))]
 R, P, U, S, C, E = JointKind
@@ -45,7 +45,7 @@ def test_revolutes_have_the_freedoms_of_the_joints(seed):
     """By the rank of the axes of revolutes, and of the screws of slides and balls themselves."""
     linkage = placed(random_jointed(seed), seed)
     solids = revolutes_of(linkage)
-    assert pose_mobility_of_axes(solids.chain, solids.axes).dof == freedoms_by_screws(linkage)
+    assert infinitesimal_mobility_of_axes(solids.chain, solids.axes).dof == freedoms_by_screws(linkage)
 
 
 @pytest.mark.parametrize(

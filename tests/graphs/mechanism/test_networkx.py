@@ -331,4 +331,4 @@ def test_help_on_graphs_is_their_own():
     for kind in (synth.SCGraph, synth.SCDGraph):
         for name in ("__init__", "__repr__", "__str__"):
             assert getattr(kind, name).__doc__ not in (None, getattr(nx.MultiGraph, name).__doc__)
-    assert "    pose : int, optional\n" in synth.mobility.__doc__
+    assert "    frame : int, optional\n" in synth.mobility.__doc__

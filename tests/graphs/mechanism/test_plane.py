@@ -5,7 +5,7 @@ import json
 import numpy as np
 import pytest
 
-from graphs.answer.mechanisms import mobility
+from graphs.answer.mobility import counts_and_ranks
 from graphs.files.formats import read, write
 from graphs.mechanism.precision import flattened, off_plane
 from graphs.mechanism.sheet import Sheet
@@ -58,10 +58,10 @@ def test_flat_formats_take_sheets_flat_in_any_plane(name, suffix, tmp_path):
     tilt, told = TILTS[name]
     (tmp_path / "a.fold").write_text(json.dumps(FAN | {"vertices_coords": [tilt(*p) for p in FAN["vertices_coords"]]}))
     sheet = read(tmp_path / "a.fold")
-    assert mobility(sheet).pose.flat
+    assert counts_and_ranks(sheet).infinitesimal.flat
     lost = write(sheet, tmp_path / f"a{suffix}")
     assert [line for line in lost if "plane" in line] == ([f"the pose in space: {told}"] if told else [])
-    again = mobility(read(tmp_path / f"a{suffix}"))
+    again = counts_and_ranks(read(tmp_path / f"a{suffix}"))
     assert (again.links, again.joints, again.mobility) == (4, 4, 1)
 
 
@@ -73,7 +73,7 @@ def test_faces_are_traced_in_any_plane(name, tmp_path):
     (tmp_path / "a.fold").write_text(json.dumps(document))
     sheet = read(tmp_path / "a.fold")
     assert sheet.repairs == (("faces traced", told) if told else ("faces traced",))
-    assert (mobility(sheet).links, mobility(sheet).joints) == (4, 4)
+    assert (counts_and_ranks(sheet).links, counts_and_ranks(sheet).joints) == (4, 4)
 
 
 def test_numbers_of_any_size_lie_in_a_plane():
@@ -93,7 +93,7 @@ def test_rounded_coordinates_are_flat_here_as_they_are_to_the_pose(tmp_path):
         ]
         (tmp_path / "a.fold").write_text(json.dumps(FAN | {"vertices_coords": points}))
         sheet = read(tmp_path / "a.fold")
-        assert (mobility(sheet).pose.flat, flattened(sheet) is not None) == (flat, flat)
+        assert (counts_and_ranks(sheet).infinitesimal.flat, flattened(sheet) is not None) == (flat, flat)
 
 
 def test_three_points_lie_in_a_plane_and_a_fourth_may_not():

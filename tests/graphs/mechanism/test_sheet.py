@@ -9,7 +9,7 @@ from graphs.count.report import mobility_report
 from graphs.errors import InvariantError
 from graphs.files.patterns.fold import fold_text, sheet_from_fold
 from graphs.mechanism.sheet import Sheet
-from graphs.rank.pose import pose_mobility
+from graphs.rank.infinitesimal import infinitesimal_mobility
 
 SQUARE = ((0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0))
 
@@ -73,7 +73,7 @@ def test_flatness_is_judged_by_coordinates():
     flat = Sheet(4, ((0, 2),), "V", ((0, 1, 2), (0, 2, 3)), tuple((x, y, 5.0) for x, y in SQUARE))
     lifted = Sheet(4, ((0, 2),), "V", ((0, 1, 2), (0, 2, 3)), tuple((x, y, x * y) for x, y in SQUARE))
     skewed = Sheet(3, (), "", ((0, 1, 2),), ((0.0, 0.0, 0.0), (1.0, 0.0, 1.0), (0.0, 1.0, 1.0)))
-    assert [pose_mobility(s).flat for s in (flat, lifted, skewed)] == [True, False, True]
+    assert [infinitesimal_mobility(s).flat for s in (flat, lifted, skewed)] == [True, False, True]
 
 
 def test_a_closed_surface_has_a_closing_loop():

@@ -16,7 +16,7 @@ from graphs.mechanism.precision import precision_of, precision_of_sheet
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet
 from graphs.rank.dissection import number_below, sparse_spectrum
-from graphs.rank.pose import closure_at_pose, pose_mobility
+from graphs.rank.infinitesimal import closure_at_configuration, infinitesimal_mobility
 from graphs.rank.singular_values import spectrum
 from synth.linkages.conformed.rates import ConformedChain, first_order
 
@@ -31,7 +31,7 @@ def test_noise_gives_no_confident_wrong_number(number):
         truth = exact_freedoms(sheet)
         noise = 10 ** rng.uniform(-15, -3)
         try:
-            found = pose_mobility(disturbed(sheet, noise, rng))
+            found = infinitesimal_mobility(disturbed(sheet, noise, rng))
         except InvariantError as error:  # rounded until a crease has no length
             assert "no length" in str(error)
             continue
@@ -52,7 +52,7 @@ def test_without_noise_the_exact_freedoms_are_found(number):
     rng = np.random.default_rng(3)
     for _ in range(number):
         sheet = random_sheet(rng)
-        found = pose_mobility(sheet)
+        found = infinitesimal_mobility(sheet)
         assert found.dof == exact_freedoms(sheet)
 
 
@@ -69,7 +69,7 @@ def pop_up(end):
 @pytest.mark.parametrize("off", [0.0, 1e-8, 1e-5, 1e-3])
 def test_a_pop_up_with_one_end_off(off):
     sheet = pop_up(4 + off)
-    found = pose_mobility(sheet)
+    found = infinitesimal_mobility(sheet)
     if not off:
         assert (found.dof, found.spectrum.certainty) == (2, "numerical")
     else:
@@ -83,7 +83,7 @@ def test_height_noise_on_a_flat_pattern():
     for noise in (1e-15, 1e-12, 1e-9, 1e-6, 1e-4, 1e-3):
         heights = rng.normal(size=flat.vertices) * noise
         places = tuple((*place[:2], z) for place, z in zip(flat.coordinates, heights, strict=True))
-        found = pose_mobility(Sheet(flat.vertices, flat.edges, flat.assignments, flat.faces, places))
+        found = infinitesimal_mobility(Sheet(flat.vertices, flat.edges, flat.assignments, flat.faces, places))
         if noise < 1e-6:
             assert (found.dof, found.spectrum.certainty) == (10, "numerical")
         else:
@@ -100,7 +100,7 @@ def test_a_padded_zero_is_no_evidence():
     found = spectrum(np.diag([1.0, 0.5, 0.25]))
     assert (found.rank, found.gap, found.smallest) == (3, np.inf, 0.25)
     square = Sheet(3, (), "", ((0, 1, 2),), ((0.0, 0.0), (1.0, 0.0), (0.0, 1.0)))
-    assert synth.mobility(square).pose.to_json()["gap"] is None
+    assert synth.mobility(square).infinitesimal.to_json()["gap"] is None
 
 
 RAISED = ((0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (-1.0, 0.0, 0.0), (0.0, -1.0, 0.0), (1.5, 1.0, 0.7))
@@ -109,8 +109,8 @@ FAN = ((0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1))
 
 def test_a_flat_vertex_of_a_sheet_that_is_not_flat_is_told_of():
     answer = synth.mobility(Sheet(6, (), "", (*FAN, (1, 2, 5)), RAISED))
-    assert (answer.pose.dof, answer.overconstraint, answer.pose.flat) == (3, 1, False)
-    assert answer.pose.flat_loops == 1
+    assert (answer.infinitesimal.dof, answer.overconstraint, answer.infinitesimal.flat) == (3, 1, False)
+    assert answer.infinitesimal.flat_loops == 1
     assert any("1 loop with all axes in one plane" in note for note in answer.warnings)
 
 
@@ -148,7 +148,7 @@ def test_panels_off_their_planes_show_the_noise():
         precision = precision_of_sheet(sheet)
         assert precision.source in ("estimated", "panels off their planes")
         assert noise / 10 < precision.size < 10 * noise
-        assert pose_mobility(sheet).dof == exact_freedoms(
+        assert infinitesimal_mobility(sheet).dof == exact_freedoms(
             Sheet(16, (), "", faces, tuple(map(tuple, (2 * prism).tolist())))
         )
 
@@ -173,7 +173,7 @@ def test_large_matrices_by_parts(size, folded):
     """Nested dissection, singular values, and ranks modulo a prime: three ways to one rank."""
     sheet = grid(size, np.random.default_rng(2) if folded else None)
     mechanism = mechanism_of_sheet(sheet)
-    matrix = closure_at_pose(sheet, mechanism).toarray()
+    matrix = closure_at_configuration(sheet, mechanism).toarray()
     places = np.repeat(np.array(sheet.coordinates)[list(mechanism.loop_vertices)], 3, axis=0)
     none = np.zeros(matrix.shape[1])
     parts = sparse_spectrum(scipy.sparse.csr_matrix(matrix), places, none, none)
@@ -207,7 +207,7 @@ def test_parts_with_noise_in_them(size):
     for noise in (1e-13, 1e-9, 1e-5):
         places = np.array(flat.coordinates)
         places[:, 2] += rng.normal(size=len(places)) * noise * SIZE * size
-        found = pose_mobility(Sheet(flat.vertices, (), "", flat.faces, tuple(map(tuple, places.tolist()))))
+        found = infinitesimal_mobility(Sheet(flat.vertices, (), "", flat.faces, tuple(map(tuple, places.tolist()))))
         if noise < 1e-6:
             assert (found.dof, found.spectrum.certainty) == (truth, "numerical")
         else:
@@ -241,14 +241,14 @@ def test_lines_drawn_apart_show_the_noise():
     assert precision_of_sheet(sheet).source == "ends that were welded"
     assert 1e-6 < precision_of_sheet(sheet).size < 1e-5
     exact = trace_sheet(Lines(np.array(ends, dtype=float), letters))
-    assert pose_mobility(sheet).dof == pose_mobility(exact).dof
+    assert infinitesimal_mobility(sheet).dof == infinitesimal_mobility(exact).dof
 
 
 def test_no_pattern_is_too_large_for_its_freedoms():
     answer = synth.mobility(grid(27), motion=False)
     assert answer.joints > 1400
     assert answer.exact.mobility == 0
-    assert (answer.pose.dof, answer.pose.spectrum.certainty) == (52, "nearly mobile")
+    assert (answer.infinitesimal.dof, answer.infinitesimal.spectrum.certainty) == (52, "nearly mobile")
 
 
 @pytest.mark.parametrize("size", [18, slow(27)])
@@ -256,7 +256,7 @@ def test_what_is_nearly_mobile_does_not_depend_on_the_elimination(size):
     """Large and small patterns are judged alike, and vertices may have any numbers."""
     sheet = grid(size)
     mechanism = mechanism_of_sheet(sheet)
-    matrix = closure_at_pose(sheet, mechanism)
+    matrix = closure_at_configuration(sheet, mechanism)
     error, nearly = np.full(matrix.shape[1], 1e-12), np.full(matrix.shape[1], 0.02)
     places = np.repeat(np.array(sheet.coordinates)[list(mechanism.loop_vertices)], 3, axis=0)
     of_all = spectrum(matrix.toarray(), error, nearly)

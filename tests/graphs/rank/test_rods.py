@@ -14,7 +14,7 @@ from graphs.mechanism.polyhedron import PointConstraint, PolyhedronModel, Remote
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
 from graphs.rank.exact import exact_mobility
-from graphs.rank.pose import pose_mobility_of_axes, pose_mobility_of_model
+from graphs.rank.infinitesimal import infinitesimal_mobility_of_axes, infinitesimal_mobility_of_model
 from graphs.rank.realisation import PRIMES, PrimeField
 from graphs.rank.rods import exact_mobility_of_model, place_model
 
@@ -93,7 +93,7 @@ def test_wamplers_first_figure_at_its_poses():
 
     def dof(places):
         made = PolyhedronModel(sorted(names), [tuple(sorted(rod)) for rod in rods], coordinates=places, links=links)
-        return pose_mobility_of_model(made).dof
+        return infinitesimal_mobility_of_model(made).dof
 
     base = {"G": (0.0, 0.0, 0.0), "H": (2.0, 0.0, 0.0), "B": (0.0, 1.0, 0.0), "C": (2.0, 1.0, 0.0)}
     angle = 0.8
@@ -112,7 +112,7 @@ def test_the_perfect_cube_has_two_infinitesimal_flexes():
     corners = [(float(x), float(y), float(z)) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]
     places = {v: corners[v] if v < 8 else (0.0, 0.0, 0.0) for v in model}
     cube = PolyhedronModel(model.nodes, model.edges, coordinates=places)
-    found = pose_mobility_of_model(cube)
+    found = infinitesimal_mobility_of_model(cube)
     assert (found.dof, found.self_stresses) == (2, 1)
     assert exact_mobility_of_model(model).mobility == 1
 
@@ -123,11 +123,11 @@ def test_bricards_octahedron_flexes():
     points = np.vstack([half, half * [-1, -1, 1]])
     rods = [(a, b) for a, b in combinations(range(6), 2) if b - a != 3]
     made = PolyhedronModel(6, rods, coordinates={v: tuple(points[v]) for v in range(6)})
-    assert pose_mobility_of_model(made).dof == 1
+    assert infinitesimal_mobility_of_model(made).dof == 1
     assert exact_mobility_of_model(made).mobility == 0
     moved = points + np.random.default_rng(5).normal(scale=0.05, size=points.shape)
     assert (
-        pose_mobility_of_model(
+        infinitesimal_mobility_of_model(
             PolyhedronModel(6, rods, coordinates=dict(zip(range(6), map(tuple, moved), strict=True)))
         ).dof
         == 0
@@ -154,10 +154,10 @@ def test_bennetts_linkage_moves():
     ring = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)])
     axes, frame = bennett(0.6, 1.1, 1.4)
     assert np.allclose(frame, np.eye(4))
-    assert pose_mobility_of_axes(ring, dict(zip(range(4), axes, strict=True))).dof == 1
+    assert infinitesimal_mobility_of_axes(ring, dict(zip(range(4), axes, strict=True))).dof == 1
     assert exact_mobility(ring).mobility == 0
     tilted = [(p, u + 0.01 * np.array([1, 2, -1]) * (i == 0)) for i, (p, u) in zip(range(4), axes, strict=True)]
-    assert pose_mobility_of_axes(ring, dict(zip(range(4), tilted, strict=True))).dof == 0
+    assert infinitesimal_mobility_of_axes(ring, dict(zip(range(4), tilted, strict=True))).dof == 0
 
 
 def test_bennetts_linkage_with_noise():
@@ -167,14 +167,14 @@ def test_bennetts_linkage_with_noise():
     rng = np.random.default_rng(0)
     for noise in (*np.repeat(10.0 ** -np.arange(4, 15), 5),):
         moved = {i: (p + rng.normal(size=3) * noise, u + rng.normal(size=3) * noise) for i, (p, u) in enumerate(axes)}
-        found = pose_mobility_of_axes(ring, moved)
+        found = infinitesimal_mobility_of_axes(ring, moved)
         assert found.dof in (None, 1) or (found.dof, found.spectrum.nearly) == (0, 1)
 
 
 def test_odd_poses():
     with pytest.raises(UnsolvableError, match="require coordinates"):
-        pose_mobility_of_model(PolyhedronModel(2, [(0, 1)]))
+        infinitesimal_mobility_of_model(PolyhedronModel(2, [(0, 1)]))
     with pytest.raises(InvariantError, match="has no length"):
-        pose_mobility_of_model(PolyhedronModel(2, [(0, 1)], coordinates={0: (0, 0, 0), 1: (0, 0, 0)}))
+        infinitesimal_mobility_of_model(PolyhedronModel(2, [(0, 1)], coordinates={0: (0, 0, 0), 1: (0, 0, 0)}))
     with pytest.raises(InvariantError, match="has no direction"):
-        pose_mobility_of_axes(SCGraph(2, [(0, 1)]), {0: ((0, 0, 0), (0, 0, 0))})
+        infinitesimal_mobility_of_axes(SCGraph(2, [(0, 1)]), {0: ((0, 0, 0), (0, 0, 0))})

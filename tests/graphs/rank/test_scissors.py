@@ -9,7 +9,7 @@ import synth
 from graphs.count.equations import mobility_of_model
 from graphs.errors import UnsolvableError
 from graphs.mechanism.polyhedron import PolyhedronModel, RemoteCentre
-from graphs.rank.pose import pose_mobility_of_model
+from graphs.rank.infinitesimal import infinitesimal_mobility_of_model
 from graphs.rank.rods import exact_mobility_of_model
 
 SPHERICAL = [RemoteCentre(4)]
@@ -32,16 +32,16 @@ def test_three_vertices_shared_about_one_centre(second):
 def test_three_vertices_shared_without_a_centre():
     """Bars 0-3 and 0-4 are pivoted to one bar 1-2 in two places and joined in vertex 0: a triangle."""
     model = PolyhedronModel(5, scissors=[(0, 1, 2, 3), (0, 1, 2, 4)], coordinates=FLAT)
-    assert exact_mobility_of_model(model).mobility == pose_mobility_of_model(model).dof == 0
+    assert exact_mobility_of_model(model).mobility == infinitesimal_mobility_of_model(model).dof == 0
     answer = synth.mobility(model)
-    assert (answer.mobility, answer.exact.mobility, answer.pose.dof) == (-1, 0, 0)
+    assert (answer.mobility, answer.exact.mobility, answer.infinitesimal.dof) == (-1, 0, 0)
 
 
 def test_an_element_given_twice_is_one():
     places = {vertex: FLAT[vertex] for vertex in range(4)}
     for again in ((0, 1, 2, 3), (3, 2, 1, 0), (0, 2, 1, 3)):
         model = PolyhedronModel(4, scissors=[(0, 1, 2, 3), again], coordinates=places)
-        assert exact_mobility_of_model(model).mobility == pose_mobility_of_model(model).dof == 1
+        assert exact_mobility_of_model(model).mobility == infinitesimal_mobility_of_model(model).dof == 1
 
 
 @pytest.mark.parametrize(
@@ -70,9 +70,9 @@ def test_bars_that_do_not_cross_are_told(places, why):
     model = PolyhedronModel(4, scissors=[(0, 1, 2, 3)], coordinates=dict(enumerate(places)))
     told = f"scissors element 0 has no pivot: {why}"
     with pytest.raises(UnsolvableError, match=told):
-        pose_mobility_of_model(model)
+        infinitesimal_mobility_of_model(model)
     answer = synth.mobility(model)
-    assert (answer.mobility, answer.exact.mobility, answer.pose) == (1, 1, None)
+    assert (answer.mobility, answer.exact.mobility, answer.infinitesimal) == (1, 1, None)
     assert any(told in note for note in answer.warnings)
 
 
@@ -81,7 +81,7 @@ def test_rounded_coordinates_still_cross():
     turned = [(0.0, 0.0, 0.0), (0.1234568, 0.9876543, 0.3333333), (1.7654321, 0.1111111, 0.7777778)]
     fourth = tuple(round(b + c - 0.9 * a + 1e-7, 7) for a, b, c in zip(*turned, strict=True))
     model = PolyhedronModel(4, scissors=[(0, 1, 2, 3)], coordinates=dict(enumerate([*turned, fourth])))
-    assert pose_mobility_of_model(model).dof == 1
+    assert infinitesimal_mobility_of_model(model).dof == 1
 
 
 @pytest.mark.parametrize("number", [12, slow(40)])

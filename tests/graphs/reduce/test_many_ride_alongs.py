@@ -11,7 +11,7 @@ import pytest
 from commands import run
 from sizes import slow
 
-from graphs.answer.mechanisms import mobility
+from graphs.answer.mobility import counts_and_ranks
 from graphs.files.formats import write
 from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
@@ -33,7 +33,7 @@ def on_one_pair(number: int, *, after: bool = False, centre: str = "finite", at:
 @pytest.mark.parametrize("number", [1_000, slow(10_000)])
 def test_thousands_on_one_pair(number):
     sc = on_one_pair(number)
-    answer = mobility(sc)
+    answer = counts_and_ranks(sc)
     assert (answer.mobility, answer.centres, answer.joints) == (1, number, 3 * number + 1)
     reduction = reduce(sc)
     assert (len(reduction.graph), len(reduction.steps)) == (4, number - 1)

@@ -8,7 +8,8 @@ import re
 from commands import run
 
 import synth
-from graphs.answer import mechanisms
+from graphs.answer import mobility as counting
+from synth.analysis.verdict import mobility_of_type
 
 KEYS = {"file", "class", "links", "joints", "loops", "centres", "mobility", "equations", "exact", "pose",
         "repairs", "warnings"}  # fmt: skip
@@ -159,10 +160,10 @@ def test_overconstraint_of_a_large_sheet_is_located_on_request_up_to_a_limit(mon
     sheet = synth.generate("miura", rows=18, columns=18).mechanism
 
     def note(**options):
-        return synth.mobility(sheet, motion=False, pose=False, **options).warnings[-1]
+        return mobility_of_type(sheet, **options).warnings[-1]
 
     assert note() == "the exact generic mobility is 0, by count -255; --exact says where equations are redundant"
     assert "is 0, by count -255: 255 redundant closure equations, among joints" in note(exact=True)
     assert "612 joints generically immobile" in note(exact=True)
-    monkeypatch.setattr(mechanisms, "_MOST_DIAGNOSED", 600)
+    monkeypatch.setattr(counting, "_MOST_DIAGNOSED", 600)
     assert note(exact=True).endswith("where equations are redundant is not looked for among more than 600 joints")

@@ -30,7 +30,7 @@ from graphs.tolerances import DOUBLE, EPSILON, leading
 from graphs.types import Floats, Ints
 from synth.analysis.folding.derivatives import axis_motions
 from synth.analysis.motion.closure import ClosureEquations, corrected
-from synth.analysis.motion.linkage import PosedLinkage
+from synth.analysis.motion.linkage import Linkage
 from synth.analysis.motion.tangent import TangentSpace
 from synth.analysis.motion.walk.step import Allowance
 
@@ -43,7 +43,7 @@ class VertexPlaces:
     vertices may be moved, `unknowns` their number.
     """
 
-    def __init__(self, sheet: Sheet, mechanism: SheetMechanism, linkage: PosedLinkage) -> None:
+    def __init__(self, sheet: Sheet, mechanism: SheetMechanism, linkage: Linkage) -> None:
         assert sheet.coordinates is not None
         self.given: Floats = (in_space(sheet.coordinates) - linkage.middle) / linkage.extent
         self.loops = linkage.loops
@@ -75,7 +75,7 @@ class VertexPlaces:
         """Return the vertices, moved by unknowns float[unknowns]: float[V, 3]."""
         return np.asarray(self.given + shifts.reshape(len(self.given), -1) @ self.along)
 
-    def linkage(self, corners: Floats) -> PosedLinkage:
+    def linkage(self, corners: Floats) -> Linkage:
         """Return the linkage with vertices at float[V, 3]; loops with parallel axes close with six equations."""
         ends = corners[self.ends]
         along = ends[:, 1] - ends[:, 0]
@@ -127,7 +127,7 @@ class VertexPlaces:
         return np.concatenate(residuals), jacobian
 
 
-def _between(mechanism: SheetMechanism, linkage: PosedLinkage) -> Iterator[tuple[int, int, int]]:
+def _between(mechanism: SheetMechanism, linkage: Linkage) -> Iterator[tuple[int, int, int]]:
     """Yield vertices on creases of several pieces, each with the ends of its crease."""
     for joint in linkage.graph.joints:
         near, far = mechanism.hinges[joint]  # type: ignore[index]
@@ -252,8 +252,10 @@ def _alike(sectors: Sequence[_Sector]) -> list[_Sum]:
     return sums
 
 
-def _shortest_step(residual: Floats, by_vertices: Floats, poses: Sequence[_Pose], least: float) -> list[Floats]:
-    """Return the least change of the vertices, float[u], and of the angles of each pose, to leave no residual.
+def _shortest_step(
+    residual: Floats, by_vertices: Floats, configurations: Sequence[_FittedConfiguration], least: float
+) -> list[Floats]:
+    """Return the least change of the vertices, float[u], and of the angles of each configuration, to leave no residual.
 
     The derivatives by the angles of a configuration are taken apart, T = U S V'. Then its equations say of each
     angle along V alone how far it has to turn for a change u of the vertices, (r + B u) / s along U, where r is its
@@ -264,12 +266,15 @@ def _shortest_step(residual: Floats, by_vertices: Floats, poses: Sequence[_Pose]
     unknowns = by_vertices.shape[1]
     rows, right_sides = [by_vertices / least, np.eye(unknowns)], [-residual / least, np.zeros(unknowns)]
     eliminated = []
-    for pose in poses:
-        parts = split(pose.by_angles.toarray())
-        sizes = np.full(len(pose.residual), least)
+    for configuration in configurations:
+        parts = split(configuration.by_angles.toarray())
+        sizes = np.full(len(configuration.residual), least)
         count = len(parts.values)
         sizes[:count] = np.maximum(parts.values, least)
-        own, jacobian = parts.left.T @ (pose.residual / pose.size), parts.left.T @ pose.by_vertices.toarray()
+        own, jacobian = (
+            parts.left.T @ (configuration.residual / configuration.size),
+            parts.left.T @ configuration.by_vertices.toarray(),
+        )
         rows.append(jacobian / sizes[:, None])
         right_sides.append(-own / sizes)
         shares = parts.values / sizes[:count] ** 2  # of values below the least only a part: no angle turns far
@@ -343,20 +348,20 @@ class _State:
     """Changes of the vertices, configurations float[K, J], and how readily their angles change, float[K, J]."""
 
     shifts: Floats
-    poses: Floats
+    configurations: Floats
     weights: Floats
 
-    def with_pose(self, angles: Floats, motion: _Motion) -> _State:
+    def with_configuration(self, angles: Floats, motion: _Motion) -> _State:
         """Return the state with one more configuration of a motion."""
         weights = np.ones_like(angles)
         weights[motion.driver], weights[list(motion.immobile)] = _CLOSING.held, 0.0
-        return _State(self.shifts, np.vstack([self.poses, angles]), np.vstack([self.weights, weights]))
+        return _State(self.shifts, np.vstack([self.configurations, angles]), np.vstack([self.weights, weights]))
 
     def onwards(self, step: Floats) -> _State:
         """Return the state after a step in the unknowns of the least-squares problem."""
         n = len(self.shifts)
-        turned = step[n:].reshape(self.poses.shape) * self.weights
-        return _State(self.shifts + _CLOSING.dear * step[:n], self.poses + turned, self.weights)
+        turned = step[n:].reshape(self.configurations.shape) * self.weights
+        return _State(self.shifts + _CLOSING.dear * step[:n], self.configurations + turned, self.weights)
 
 
 class _Motion(NamedTuple):
@@ -395,7 +400,7 @@ class Fitting:
         """The largest displacement of a vertex, in units of the extent."""
         return self._displacement(self._state)
 
-    def at_the_pose(self) -> bool:
+    def at_configuration(self) -> bool:
         """Move the vertices so that angles and panels are as they are meant; tell whether they are."""
         closed = self._closed(self._state)
         if closed is not None:
@@ -422,7 +427,7 @@ class Fitting:
             if worst is None:
                 fitted._state = state
                 return fitted
-            state = self._refitted(state.with_pose(*worst), most)
+            state = self._refitted(state.with_configuration(*worst), most)
         return None
 
     def _displacement(self, state: _State) -> float:
@@ -435,11 +440,11 @@ class Fitting:
         for number, turn in enumerate(turns):
             closure = self._closure(state).locked(motion.immobile)
             there = _near(closure, here, direction, motion.driver, motion.at(self._start, turn))
-            tried = self._refitted(state.with_pose(there, motion), most)
+            tried = self._refitted(state.with_configuration(there, motion), most)
             if tried is None:
                 return None if number < min(_MOTIONS.enough, len(turns) - 1) else state
             state = tried
-            direction, here = state.poses[-1] - here, state.poses[-1]
+            direction, here = state.configurations[-1] - here, state.configurations[-1]
         return state
 
     def _refitted(self, state: _State, most: float) -> _State | None:
@@ -470,14 +475,17 @@ class Fitting:
         """Return what closes near a state, by Gauss and Newton's method; None where it does not or work is used up."""
 
         def may_step() -> bool:
-            return self._allowance.take(len(state.shifts) + state.poses.size)
+            return self._allowance.take(len(state.shifts) + state.configurations.size)
 
         end = find_root(_FittingIterate(self, state), _CLOSING, may_step=may_step) if may_step() else None
         if end is None or end.reason is StopReason.ALLOWANCE:
             self.error = np.inf
             return None
         equations = end.at.equations
-        if _largest([equations.fixed, *(pose.residual for pose in equations.poses)]) > DOUBLE.closed:
+        if (
+            _largest([equations.fixed, *(configuration.residual for configuration in equations.configurations)])
+            > DOUBLE.closed
+        ):
             self.error, self.displaced = end.at.error, self._displacement(end.at.state)
             return None
         return end.at.state
@@ -492,14 +500,16 @@ class Fitting:
         fixed = np.concatenate([warped, bent, self._angles.residual(corners)])
         both = [by_planes * _CLOSING.dear, by_lines * _CLOSING.dear]
         by_vertices = scipy.sparse.vstack([*both, self._angles.by_axes() @ axes]).tocsr()
-        poses = []
-        for pose, weights in zip(state.poses, state.weights, strict=True):
-            residual, jacobian = closure.at(pose)
-            size = _sizes(jacobian, np.abs(pose - self._start))
+        configurations = []
+        for configuration, weights in zip(state.configurations, state.weights, strict=True):
+            residual, jacobian = closure.at(configuration)
+            size = _sizes(jacobian, np.abs(configuration - self._start))
             scale = scipy.sparse.diags(1.0 / size)
             by_angles = (scale @ jacobian @ scipy.sparse.diags(weights)).tocsr()
-            poses.append(_Pose(residual, size, scale @ (closure.by_axes(pose) @ axes), by_angles))
-        return _Equations(fixed, by_vertices, poses)
+            configurations.append(
+                _FittedConfiguration(residual, size, scale @ (closure.by_axes(configuration) @ axes), by_angles)
+            )
+        return _Equations(fixed, by_vertices, configurations)
 
 
 @dataclass(frozen=True)
@@ -524,7 +534,7 @@ class _FittingIterate:
         return _FittingIterate(self.fitting, self.equations.solved(self.state))
 
 
-class _Pose(NamedTuple):
+class _FittedConfiguration(NamedTuple):
     """Equations of one configuration: what does not close, by what it is divided, and the divided derivatives."""
 
     residual: Floats
@@ -538,26 +548,40 @@ class _Equations(NamedTuple):
 
     fixed: Floats
     by_vertices: scipy.sparse.csr_matrix
-    poses: list[_Pose]
+    configurations: list[_FittedConfiguration]
 
     @property
     def error(self) -> float:
         """The largest residual, as divided."""
-        return _largest([self.fixed, *(pose.residual / pose.size for pose in self.poses)])
+        return _largest(
+            [self.fixed, *(configuration.residual / configuration.size for configuration in self.configurations)]
+        )
 
     def solved(self, state: _State) -> _State:
         """Return the state after the least step that takes all away."""
-        if max([len(self.fixed), *(len(pose.residual) for pose in self.poses)]) > _CLOSING.dense:
+        if (
+            max([len(self.fixed), *(len(configuration.residual) for configuration in self.configurations)])
+            > _CLOSING.dense
+        ):
             return self._solved_sparse(state)
         least = max(_CLOSING.least_value, _CLOSING.share * self.error)
-        return state.onwards(np.concatenate(_shortest_step(self.fixed, self.by_vertices.toarray(), self.poses, least)))
+        return state.onwards(
+            np.concatenate(_shortest_step(self.fixed, self.by_vertices.toarray(), self.configurations, least))
+        )
 
     def _solved_sparse(self, state: _State) -> _State:
         """Return the same by regularised normal equations, of large sheets."""
         regular = min(_CLOSING.most, max(_CLOSING.least, _CLOSING.share * self.error))
-        residual = np.concatenate([self.fixed, *(pose.residual / pose.size for pose in self.poses)])
-        turning = [scipy.sparse.csr_matrix((len(self.fixed), 0)), *(pose.by_angles for pose in self.poses)]
-        columns = scipy.sparse.vstack([self.by_vertices, *(pose.by_vertices for pose in self.poses)])
+        residual = np.concatenate(
+            [self.fixed, *(configuration.residual / configuration.size for configuration in self.configurations)]
+        )
+        turning = [
+            scipy.sparse.csr_matrix((len(self.fixed), 0)),
+            *(configuration.by_angles for configuration in self.configurations),
+        ]
+        columns = scipy.sparse.vstack(
+            [self.by_vertices, *(configuration.by_vertices for configuration in self.configurations)]
+        )
         matrix = scipy.sparse.hstack([columns, scipy.sparse.block_diag(turning)], format="csr")
         return state.onwards(TangentSpace(matrix, regular).step(residual))
 

@@ -24,7 +24,7 @@ from synth.analysis.motion.branches import MOST_BRANCHES
 from synth.analysis.motion.closure import ClosureEquations
 from synth.analysis.motion.configuration import EXACT
 from synth.analysis.motion.flat_vertices import FlatVertices
-from synth.analysis.motion.linkage import PosedLinkage, linkage_of_sheet
+from synth.analysis.motion.linkage import Linkage, linkage_of_sheet
 from synth.analysis.motion.singular.sampling import followed, rates_towards
 from synth.analysis.motion.singular.second_order import (
     RateSpace,
@@ -138,7 +138,7 @@ def zeros_of(precision: float, lengths: Floats) -> list[float]:
 
 
 def near_branches(
-    linkage: PosedLinkage, zero: float, wanted: Floats, most: int, known: Sequence[NearBranch] = ()
+    linkage: Linkage, zero: float, wanted: Floats, most: int, known: Sequence[NearBranch] = ()
 ) -> tuple[list[NearBranch], bool]:
     """Return up to `most` branches that a linkage nearly has, but for known ones, and whether these are all."""
     branches: list[NearBranch] = []
@@ -150,7 +150,7 @@ def near_branches(
     return sorted(branches, key=lambda one: -one.agreement(wanted)), complete
 
 
-def spaces_at(linkage: PosedLinkage, most: int, zero: float = DOUBLE.zero) -> tuple[list[RateSpace], bool]:
+def spaces_at(linkage: Linkage, most: int, zero: float = DOUBLE.zero) -> tuple[list[RateSpace], bool]:
     """Return the spaces of rates that agree to second order, and whether these are all."""
     tangent, allowance = rates_at(ClosureEquations(linkage), linkage.angles, zero), Allowance(_WORK_NEAR)
     spaces = spaces_within(tangent, quadrics_of(linkage), zero, allowance)
@@ -215,7 +215,7 @@ class WrittenPattern:
 
     sheet: Sheet
     mechanism: SheetMechanism
-    linkage: PosedLinkage
+    linkage: Linkage
     precision: Precision
     wanted: Floats
 
@@ -313,7 +313,7 @@ class _PatternSearch:
         fittings = []
         for meant in angles:
             fitting = Fitting(self.places, meant, self.written.linkage.angles, self.allowance)
-            if fitting.at_the_pose() and fitting.moved <= self.reach:
+            if fitting.at_configuration() and fitting.moved <= self.reach:
                 equal, straight = "angles that nearly agree are equal", "creases are straight and panels planar"
                 fittings.append((fitting, equal if len(meant) else straight))
         return fittings
@@ -324,7 +324,7 @@ class _PatternSearch:
         corners = fitting.corners * linkage.extent + linkage.middle
         return MendedPattern(with_vertices(self.written.sheet, corners), fitting.moved, self.precision, why)
 
-    def linkage(self, mended: MendedPattern) -> PosedLinkage:
+    def linkage(self, mended: MendedPattern) -> Linkage:
         """Return the linkage of a mended pattern."""
         return linkage_of_sheet(mended.sheet, self.written.mechanism)
 
@@ -378,7 +378,7 @@ class _Search(_PatternSearch):
         """Return the near branches that no mechanism has yet."""
         return [number for number in left if not any(number in one.has for one in self.candidates)]
 
-    def _had_by(self, linkage: PosedLinkage, *, follow: bool) -> frozenset[int]:
+    def _had_by(self, linkage: Linkage, *, follow: bool) -> frozenset[int]:
         """Return which near branches a linkage has; where that is not clear at the configuration they are followed."""
         spaces, _ = spaces_at(linkage, MOST_BRANCHES)
         closure, linear = ClosureEquations(linkage), FlatVertices(linkage).linear
@@ -391,7 +391,7 @@ class _Search(_PatternSearch):
                     break
         return frozenset(had)
 
-    def _moves(self, closure: ClosureEquations, linkage: PosedLinkage, space: RateSpace, number: int) -> bool:
+    def _moves(self, closure: ClosureEquations, linkage: Linkage, space: RateSpace, number: int) -> bool:
         """Tell whether a motion begins in a space, near to that of a near branch, with all its freedoms."""
         if not self.allowance.take(_FOLLOW):
             return False
@@ -481,10 +481,10 @@ class _Large(_PatternSearch):
                 return NearbyPatterns((mended,), nearly=True)
         return NearbyPatterns(unsettled=rates is not None, nearly=rates is not None)
 
-    def _moves(self, linkage: PosedLinkage) -> bool:
+    def _moves(self, linkage: Linkage) -> bool:
         return self._rates(linkage) is not None
 
-    def _rates(self, linkage: PosedLinkage, zero: float = DOUBLE.closed) -> Floats | None:
+    def _rates(self, linkage: Linkage, zero: float = DOUBLE.closed) -> Floats | None:
         closure, wanted = ClosureEquations(linkage), self.written.wanted
         return rates_near(closure, linkage.angles, quadrics_of(linkage), wanted, zero)
 

@@ -3,7 +3,7 @@
 Equal problems are counted once. A large problem is parted into cases: values of a few variables.
 """
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from hashlib import sha256
@@ -15,9 +15,6 @@ from enumerate.runner._run import tuples_of
 from enumerate.runner.job import Column, Row, Unit
 from synth.analysis.layering.counting.problem import LayerProblem, Values
 from synth.analysis.layering.counting.propagation import counted
-
-Counter = Callable[[Sequence[LayerProblem]], Sequence[int]]
-"""What counts the solutions of each of some problems."""
 
 _LARGE, _CASES, _WORK = 64, 16, 10_000
 """Variables from which on a problem is parted, into how many cases at most, and the weight of one: others have 1."""

@@ -6,7 +6,7 @@ of each that it has met: its key is which variables are open, and what the other
 components (2000); M. Thurley, sharpSAT (2006). Theory: docs/theory/layer-orders.md.
 """
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -51,6 +51,10 @@ class LayerProblem:
             for literal in literals:
                 of[literal >> 1].append(number)
         return of
+
+
+Counter = Callable[[Sequence[LayerProblem]], Sequence[int]]
+"""What counts the solutions of each of some problems."""
 
 
 class Values:

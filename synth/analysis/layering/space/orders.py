@@ -16,11 +16,11 @@ from graphs.printing import Block, TableBlock
 from graphs.types import Ints
 from synth.analysis.layering.constraints import FALSE, TRUE, layer_constraints
 from synth.analysis.layering.cores import core_lines, core_of
-from synth.analysis.layering.counting.job import Counter
+from synth.analysis.layering.counting.problem import Counter
 from synth.analysis.layering.local import FlatVertex
 from synth.analysis.layering.orders import CONTRADICTION, FlatFolding, components_of
 from synth.analysis.layering.reduction import reduced
-from synth.analysis.layering.space.planes import PosedSheet, StackedPanels, stacked_panels
+from synth.analysis.layering.space.planes import FoldedState, StackedPanels, stacked_panels
 
 Height = tuple[int, int, int]
 """A cell and two panels, the first above the second: on the side that the normal of their plane points to."""
@@ -36,7 +36,7 @@ class LayersInSpace(FlatFolding):
 
     Attributes
     ----------
-    posed : PosedSheet
+    state : FoldedState
     stacked : StackedPanels, optional
         The planes in which panels lie on each other; None if none do: then there is one order.
 
@@ -44,14 +44,14 @@ class LayersInSpace(FlatFolding):
     `FlatFolding`.
     """
 
-    posed: PosedSheet = field(kw_only=True)
+    state: FoldedState = field(kw_only=True)
     stacked: StackedPanels | None = field(kw_only=True)
 
     @cached_property
     def valleys(self) -> dict[int, bool]:
         """Whether each crease at which panels lie on each other is a valley, by its joint."""
         creases = () if self.stacked is None else self.stacked.creases
-        return {joint: self.posed.signs[joint] for joint in creases if joint in self.posed.signs}
+        return {joint: self.state.signs[joint] for joint in creases if joint in self.state.signs}
 
     def decided(self, variables: Ints) -> list[bool | None]:
         """Return whether the lower number is on top for each of some pairs; None where that is open."""
@@ -104,12 +104,12 @@ class LayersInSpace(FlatFolding):
         return f"<LayersInSpace: {numbered(self.orders, 'layer order')}>"
 
 
-def layers_in_space(posed: PosedSheet, count: Counter, above: Sequence[Height] = ()) -> LayersInSpace:
+def layers_in_space(state: FoldedState, count: Counter, above: Sequence[Height] = ()) -> LayersInSpace:
     """Return the layer orders of a sheet at a configuration.
 
     Parameters
     ----------
-    posed : PosedSheet
+    state : FoldedState
     count : callable
         Takes problems, and returns how many solutions each has.
     above : sequence of (int, int, int), optional
@@ -121,21 +121,21 @@ def layers_in_space(posed: PosedSheet, count: Counter, above: Sequence[Height] =
     >>> import synth.analysis.moving
     >>> from synth.analysis.layering.counting.propagation import counted
     >>> at = synth.analysis.moving.configuration_of(synth.read("data/patterns/bird-base.fold"))
-    >>> layers_in_space(at.posed(), lambda problems: list(map(counted, problems)))
+    >>> layers_in_space(at.folded_state(), lambda problems: list(map(counted, problems)))
     <LayersInSpace: 1 layer order>
     """
-    stacked = stacked_panels(posed)
+    stacked = stacked_panels(state)
     if stacked is None:
-        return LayersInSpace(*_about(posed), None, 0.0, (), 1, "", posed=posed, stacked=None)
-    return layers_of_stacked(posed, stacked, count, above)
+        return LayersInSpace(*_about(state), None, 0.0, (), 1, "", state=state, stacked=None)
+    return layers_of_stacked(state, stacked, count, above)
 
 
 def layers_of_stacked(
-    posed: PosedSheet, stacked: StackedPanels, count: Counter, above: Sequence[Height] = (), *, explain: bool = True
+    state: FoldedState, stacked: StackedPanels, count: Counter, above: Sequence[Height] = (), *, explain: bool = True
 ) -> LayersInSpace:
     """Return the layer orders of panels that lie on each other; `layers_in_space` finds them first."""
     constraints = layer_constraints(stacked.image)
-    signs = {joint: posed.signs[joint] for joint in stacked.creases if joint in posed.signs}
+    signs = {joint: state.signs[joint] for joint in stacked.creases if joint in state.signs}
     known, _ = constraints.creases(signs)
     more = [int(constraints.table.literals(*height)) for height in above]
     left = reduced(constraints, np.concatenate([known, np.array(more, dtype=np.int64)]))
@@ -144,10 +144,10 @@ def layers_of_stacked(
     core = core_of(stacked.image, signs, above) if explain and not orders else None
     fault = "" if orders else CONTRADICTION
     return LayersInSpace(
-        *_about(posed), stacked.image, 0.0, parts if orders else (), orders, fault, core, constraints, left,
-        posed=posed, stacked=stacked,
+        *_about(state), stacked.image, 0.0, parts if orders else (), orders, fault, core, constraints, left,
+        state=state, stacked=stacked,
     )  # fmt: skip
 
 
-def _about(posed: PosedSheet) -> tuple[Sheet, SheetMechanism, Precision, float, tuple[FlatVertex, ...]]:
-    return posed.sheet, posed.mechanism, posed.precision, 0.0, ()
+def _about(state: FoldedState) -> tuple[Sheet, SheetMechanism, Precision, float, tuple[FlatVertex, ...]]:
+    return state.sheet, state.mechanism, state.precision, 0.0, ()

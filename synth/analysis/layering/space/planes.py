@@ -15,7 +15,6 @@ from math import pi
 import networkx as nx
 import numpy as np
 import shapely
-from scipy.spatial import cKDTree
 
 from graphs.convert.duality import SheetMechanism
 from graphs.geometry import frame_about, unit
@@ -28,7 +27,7 @@ from synth.analysis.motion.linkage import Creases
 
 
 @dataclass(frozen=True, eq=False)
-class PosedSheet:
+class FoldedState:
     """A sheet at a configuration.
 
     Attributes
@@ -109,10 +108,10 @@ class StackedPanels:
 class _Plates:
     """A sheet at a configuration: the normals of its faces, its plates, and the creases that are closed."""
 
-    def __init__(self, posed: PosedSheet) -> None:
-        sheet, mechanism, points, tolerances = posed.sheet, posed.mechanism, posed.points, posed.tolerances
+    def __init__(self, state: FoldedState) -> None:
+        sheet, mechanism, points, tolerances = state.sheet, state.mechanism, state.points, state.tolerances
         self.sheet, self.mechanism, self.points = sheet, mechanism, points
-        creases = posed.creases
+        creases = state.creases
         self.normals = unit(creases.area_vectors(points))
         listed = np.array(
             [1.0 if turned == face else -1.0 for turned, face in zip(creases.faces, sheet.faces, strict=True)]
@@ -120,7 +119,7 @@ class _Plates:
         self.listed = self.normals * listed[:, None]
         self.touching = tolerances.same_point * (extent_of(points) or 1.0)
         near = max(tolerances.same_configuration, tolerances.parallel)
-        size = np.abs(posed.angles)
+        size = np.abs(state.angles)
         unfolded = nx.Graph()
         unfolded.add_nodes_from(range(len(mechanism.panels)))
         ends = mechanism.sc.joints
@@ -169,6 +168,8 @@ class _Plates:
         """Return the plates whose plane is nearly that of another: those that are looked at more closely."""
         if len(plates) < 2:
             return plates
+        from scipy.spatial import cKDTree  # not at the head: a question about one vertex would wait for it
+
         first = [self.faces_of_plate[plate][0] for plate in plates]
         normals = self.normals[first]
         corners = np.array([self.sheet.faces[face][0] for face in first])
@@ -303,22 +304,22 @@ def _bridges(edges: Sequence[tuple[int, int]], places: Floats) -> Iterator[tuple
         yield one[0], other[int(np.argmax(far))]
 
 
-def stacked_panels(posed: PosedSheet) -> StackedPanels | None:
+def stacked_panels(state: FoldedState) -> StackedPanels | None:
     """Return the panels of a sheet that lie on each other at a configuration; None if none do."""
-    pose = _Plates(posed)
-    planes = tuple(pose.planes())
+    stacking = _Plates(state)
+    planes = tuple(stacking.planes())
     if not planes:
         return None
     images = []
     for plane in planes:
-        panels, bridges = pose.sub_sheet(plane)
-        images.append(image_of(panels, pose.touching, bridges))
-    leaving = [pose.leaving(plane, image) for plane, image in zip(planes, images, strict=True)]
-    return _joined(pose, planes, images, leaving)
+        panels, bridges = stacking.sub_sheet(plane)
+        images.append(image_of(panels, stacking.touching, bridges))
+    leaving = [stacking.leaving(plane, image) for plane, image in zip(planes, images, strict=True)]
+    return _joined(stacking, planes, images, leaving)
 
 
 def _joined(
-    pose: _Plates,
+    stacking: _Plates,
     planes: tuple[PlaneOfPanels, ...],
     images: Sequence[FoldedImage],
     leaving: Sequence[Sequence[tuple[int, int, _Leaving]]],
@@ -328,7 +329,7 @@ def _joined(
         face: number
         for number, plane in enumerate(planes)
         for plate in plane.plates
-        for face in pose.faces_of_plate[plate]
+        for face in stacking.faces_of_plate[plate]
     }
     first_cell = np.cumsum([0, *(len(image.cells) for image in images)]).tolist()
     first_node = np.cumsum([0, *(len(image.nodes) for image in images[:-1])]).tolist()
@@ -342,15 +343,20 @@ def _joined(
             left, right = (cell + first_cell[number] if cell >= 0 else cell for cell in (strand.left, strand.right))
             out = tuple(tuple(mine.get((segment, side), ())) for side in (0, 1))
             strands.append(replace(strand, left=left, right=right, leaving=out))  # type: ignore[arg-type]
-    flipped = np.zeros(len(pose.plates), dtype=bool)
-    faces_up = [False] * len(pose.sheet.faces)
+    flipped = np.zeros(len(stacking.plates), dtype=bool)
+    faces_up = [False] * len(stacking.sheet.faces)
     for lain, image in zip(planes, images, strict=True):
         for plate in lain.plates:
             flipped[plate] = image.panels.flipped[plate]
-            for face in pose.faces_of_plate[plate]:
-                faces_up[face] = bool(pose.listed[face] @ lain.frame[2] > 0.0)
+            for face in stacking.faces_of_plate[plate]:
+                faces_up[face] = bool(stacking.listed[face] @ lain.frame[2] > 0.0)
     panels = FoldedPanels(
-        pose.sheet, replace(pose.mechanism, panels=tuple(pose.faces_of_plate)), np.zeros((0, 2)), flipped, 0.0, 0
+        stacking.sheet,
+        replace(stacking.mechanism, panels=tuple(stacking.faces_of_plate)),
+        np.zeros((0, 2)),
+        flipped,
+        0.0,
+        0,
     )
     panels.__dict__["faces_up"] = faces_up
     whole = FoldedImage(
@@ -366,16 +372,16 @@ def _joined(
         tuple(above for image in images for above in image.above),
         {},
         max(image.welded for image in images),
-        tuple(dict.fromkeys(_bundles(pose, plane_of_face, images, leaving, first_cell))),
+        tuple(dict.fromkeys(_bundles(stacking, plane_of_face, images, leaving, first_cell))),
     )
     whole.__dict__["strands"] = tuple(strands)
     plane_of_cell = tuple(number for number, image in enumerate(images) for _ in image.cells)
     creases = sorted({joint for strand in strands for side in strand.turning for *_, joint in side})
-    return StackedPanels(planes, whole, plane_of_cell, tuple(pose.plates), tuple(creases))
+    return StackedPanels(planes, whole, plane_of_cell, tuple(stacking.plates), tuple(creases))
 
 
 def _bundles(
-    pose: _Plates,
+    stacking: _Plates,
     plane_of_face: dict[int, int],
     images: Sequence[FoldedImage],
     leaving: Sequence[Sequence[tuple[int, int, _Leaving]]],

@@ -15,7 +15,7 @@ import numpy as np
 from graphs.tolerances import DOUBLE
 from graphs.types import Floats, Ints
 from synth.analysis.motion.closure import ClosureEquations
-from synth.analysis.motion.linkage import LinkagePart, PosedLinkage, part_of
+from synth.analysis.motion.linkage import Linkage, LinkagePart, part_of
 from synth.analysis.motion.singular.second_order import local_forms, quadrics_of, rates_at, rigidity_of
 
 _MOST_LOOPS = 12
@@ -24,7 +24,7 @@ _FIGURES = 1e-6
 """A loop takes part in a relation between slopes if its share is at least this part of the largest."""
 
 
-def immobile_joints(linkage: PosedLinkage, zero: float = DOUBLE.zero) -> list[int]:
+def immobile_joints(linkage: Linkage, zero: float = DOUBLE.zero) -> list[int]:
     """Return places of joints that a few loops alone prove to be immobile, and then a few loops of the rest."""
     immobile: set[int] = set()
     while True:
@@ -43,7 +43,7 @@ def immobile_joints(linkage: PosedLinkage, zero: float = DOUBLE.zero) -> list[in
         immobile |= more
 
 
-def without(linkage: PosedLinkage, immobile: set[int]) -> LinkagePart | None:
+def without(linkage: Linkage, immobile: set[int]) -> LinkagePart | None:
     """Return what is left where joints are taken out of their loops, held at their angles; None if no joint is."""
     left = [joint for joint in range(len(linkage.angles)) if joint not in immobile]
     if not left:
@@ -61,7 +61,7 @@ def without(linkage: PosedLinkage, immobile: set[int]) -> LinkagePart | None:
     return part._replace(loops=tuple(numbers))
 
 
-def _candidates(linkage: PosedLinkage, zero: float) -> Iterator[list[int]]:
+def _candidates(linkage: Linkage, zero: float) -> Iterator[list[int]]:
     """Yield sets of loops that may be rigid by themselves, the smallest first.
 
     Forms of a set of loops that depend on no more rates than they are have slopes that span no more than that. So a

@@ -20,7 +20,7 @@ from graphs.loops.loop import Centre
 from graphs.mechanism.sc import SCGraph
 from graphs.tolerances import DOUBLE, canonical_order, trailing
 from graphs.types import Floats, Ints
-from synth.analysis.motion.linkage import PosedLinkage, PosedLoop
+from synth.analysis.motion.linkage import Linkage, LinkageLoop
 
 _BENT = 0.37
 """Invariants x count as 1 / (x + this): sums of squares are alike where their terms are not."""
@@ -33,7 +33,7 @@ _SHARES = (1.0, 0.731, 0.519, 0.347)
 """Weights of the invariants that are added to one."""
 
 
-def joint_order(linkage: PosedLinkage, marks: Floats | None = None) -> Ints:
+def joint_order(linkage: Linkage, marks: Floats | None = None) -> Ints:
     """Return the joints, int[J], in an order that renaming, moving and mirroring leave; marks part like ones."""
     joints = len(linkage.angles)
     if joints < 2:
@@ -41,7 +41,7 @@ def joint_order(linkage: PosedLinkage, marks: Floats | None = None) -> Ints:
     return _swept(linkage, _labels(linkage, marks))
 
 
-def _labels(linkage: PosedLinkage, marks: Floats | None) -> Ints:
+def _labels(linkage: Linkage, marks: Floats | None) -> Ints:
     """Return the joints in the order of their classes."""
     relations = _Relations.of(linkage)
     angles = np.concatenate([np.cos(linkage.angles), np.full(relations.centres, 2.0)])
@@ -55,7 +55,7 @@ def _labels(linkage: PosedLinkage, marks: Floats | None) -> Ints:
     return orders[canonical_order(seen, DOUBLE.zero)[0]]
 
 
-def _swept(linkage: PosedLinkage, labels: Ints) -> Ints:
+def _swept(linkage: Linkage, labels: Ints) -> Ints:
     """Return the joints loop by loop, from one far out to those that share most joints with the loops before."""
     rank = np.argsort(labels)
     centres = {number: _centre(linkage, loop) for number, loop in enumerate(linkage.loops) if _is_about(loop)}
@@ -95,11 +95,11 @@ def _parts(points: Floats) -> list[Floats]:
     return [points[start : start + _PART] for start in range(0, len(points), _PART)]
 
 
-def _is_about(loop: PosedLoop) -> bool:
+def _is_about(loop: LinkageLoop) -> bool:
     return loop.centre is Centre.FINITE and len(loop.joints) > 1
 
 
-def in_order(linkage: PosedLinkage, order: Ints) -> PosedLinkage:
+def in_order(linkage: Linkage, order: Ints) -> Linkage:
     """Return a linkage with its joints in an order, and its loops by these, beginning at their first joint."""
     graph, names = linkage.graph, list(linkage.graph.joints)
     place = np.argsort(order)
@@ -112,7 +112,7 @@ def in_order(linkage: PosedLinkage, order: Ints) -> PosedLinkage:
     return replace(linkage, graph=ordered, points=points, directions=directions, angles=angles, loops=tuple(loops))
 
 
-def _begun_at_first(loop: PosedLoop, place: Ints) -> PosedLoop:
+def _begun_at_first(loop: LinkageLoop, place: Ints) -> LinkageLoop:
     """Return a loop by new places, from the least on towards the lesser of its neighbours."""
     joints, signs = [int(place[joint]) for joint in loop.joints], list(loop.signs)
     first = joints.index(min(joints))
@@ -120,7 +120,7 @@ def _begun_at_first(loop: PosedLoop, place: Ints) -> PosedLoop:
     if joints[-1] < joints[1]:
         joints = [joints[0], *joints[:0:-1]]
         signs = [-sign for sign in (signs[0], *signs[:0:-1])]
-    return PosedLoop(tuple(joints), tuple(signs), loop.centre)
+    return LinkageLoop(tuple(joints), tuple(signs), loop.centre)
 
 
 def _signs(colours: Ints, marks: Floats) -> tuple[float, ...]:
@@ -143,7 +143,7 @@ class _Relations:
     centres: int
 
     @classmethod
-    def of(cls, linkage: PosedLinkage) -> _Relations:
+    def of(cls, linkage: Linkage) -> _Relations:
         """Return the relations of the joints of a linkage and the centres of its loops."""
         joints = len(linkage.angles)
         about = [loop for loop in linkage.loops if _is_about(loop)]
@@ -202,7 +202,7 @@ class _Relations:
             colours = self.refined(np.unique(colours, return_inverse=True)[1])
 
 
-def _near_pairs(linkage: PosedLinkage, about: list[PosedLoop], centres: Floats) -> scipy.sparse.csr_matrix:
+def _near_pairs(linkage: Linkage, about: list[LinkageLoop], centres: Floats) -> scipy.sparse.csr_matrix:
     """Return the relations of a large linkage: of joints that share a link or a loop, and of these to its centre."""
     joints, size = len(linkage.angles), len(linkage.angles) + len(about)
     loops = [list(loop.joints) for loop in about]
@@ -240,12 +240,12 @@ def _classes(colours: Ints, seen: Floats) -> Ints:
     return finer
 
 
-def _centre(linkage: PosedLinkage, loop: PosedLoop) -> Floats:
+def _centre(linkage: Linkage, loop: LinkageLoop) -> Floats:
     joints = list(loop.joints)
     return np.asarray(lines_meet(linkage.points[joints], linkage.directions[joints]).point)
 
 
-def _links_shared(linkage: PosedLinkage) -> Floats:
+def _links_shared(linkage: Linkage) -> Floats:
     """Return how many links two joints share: float[J, J], 0 on the diagonal."""
     number = {link: place for place, link in enumerate(linkage.graph.nodes)}
     ends = np.zeros((len(linkage.angles), len(number)))
@@ -256,7 +256,7 @@ def _links_shared(linkage: PosedLinkage) -> Floats:
     return np.asarray(shared)
 
 
-def _moments(linkage: PosedLinkage) -> Floats:
+def _moments(linkage: Linkage) -> Floats:
     """Return the squares of the moments between axes, as parts of the largest; zeros where all lie in a plane."""
     off = np.cross(linkage.points, linkage.directions)
     moments = linkage.directions @ off.T

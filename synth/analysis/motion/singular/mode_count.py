@@ -20,7 +20,7 @@ import numpy as np
 from graphs.rank.singular_values import inertia, null_space
 from graphs.tolerances import DOUBLE
 from graphs.types import Floats
-from synth.analysis.motion.linkage import PosedLinkage
+from synth.analysis.motion.linkage import Linkage
 from synth.analysis.motion.singular.second_order import Quadric, quadrics_of
 
 MOST_STATES = 4_000
@@ -42,7 +42,7 @@ class ModeCount:
     all: bool
 
 
-def modes_of(linkage: PosedLinkage) -> list[tuple[Mode, ...]] | None:
+def modes_of(linkage: Linkage) -> list[tuple[Mode, ...]] | None:
     """Return the one or two modes of each loop, the parts of its creases; None where a vertex has none or no such."""
     by_joints = {quadric.joints: quadric for quadric in quadrics_of(linkage)}
     every = []
@@ -74,7 +74,7 @@ def _modes(rates: Floats, quadric: Quadric | None) -> tuple[Mode, ...]:
     return tuple(modes)
 
 
-def count_of_modes(linkage: PosedLinkage) -> ModeCount | None:
+def count_of_modes(linkage: Linkage) -> ModeCount | None:
     """Return how many branches choose a mode at every vertex; None if modes are no such, or frontiers are too many."""
     modes = modes_of(linkage)
     if not modes:
@@ -91,7 +91,7 @@ _State = tuple[tuple[int, ...], tuple[tuple[int, float], ...]]
 """For each crease of the frontier its cluster, -1 at rest, and its part there: sign and logarithm of its size."""
 
 
-def _transferred(linkage: PosedLinkage, modes: Mapping[int, Sequence[Mode]]) -> Counter[int | None] | None:
+def _transferred(linkage: Linkage, modes: Mapping[int, Sequence[Mode]]) -> Counter[int | None] | None:
     """Return how many choices of modes of some loops agree, by freedoms; None if frontiers are too many.
 
     Along lines of creases that rest in one mode, such as the zigzags of a Miura sheet, or along those that hold each
@@ -105,7 +105,7 @@ def _transferred(linkage: PosedLinkage, modes: Mapping[int, Sequence[Mode]]) -> 
 
 
 def _transferred_along(
-    linkage: PosedLinkage, modes: Mapping[int, Sequence[Mode]], order: Sequence[int]
+    linkage: Linkage, modes: Mapping[int, Sequence[Mode]], order: Sequence[int]
 ) -> Counter[int | None] | None:
     """Return the same, with the loops in an order."""
     last: dict[int, int] = {}
@@ -136,7 +136,7 @@ def _rounded(state: _State) -> _State:
     return state[0], tuple((sign, round(size, _DIGITS) + 0.0) for sign, size in state[1])
 
 
-def _order(linkage: PosedLinkage, modes: Mapping[int, Sequence[Mode]], groups: Sequence[Collection[int]]) -> list[int]:
+def _order(linkage: Linkage, modes: Mapping[int, Sequence[Mode]], groups: Sequence[Collection[int]]) -> list[int]:
     """Return loops in an order in which each shares as many joints as possible with those before, group by group."""
     loops_of = _loops_of_joints(linkage)
     group = {loop: number for number, members in enumerate(groups) for loop in members}
@@ -155,7 +155,7 @@ def _order(linkage: PosedLinkage, modes: Mapping[int, Sequence[Mode]], groups: S
     return order
 
 
-def _weakly(linkage: PosedLinkage, modes: Mapping[int, Sequence[Mode]]) -> nx.Graph:
+def _weakly(linkage: Linkage, modes: Mapping[int, Sequence[Mode]]) -> nx.Graph:
     """Return a graph with an edge between vertices whose common crease rests in some mode of each."""
     weak = nx.Graph()
     weak.add_nodes_from(modes)
@@ -168,7 +168,7 @@ def _weakly(linkage: PosedLinkage, modes: Mapping[int, Sequence[Mode]]) -> nx.Gr
     return weak
 
 
-def _held(linkage: PosedLinkage, modes: Mapping[int, Sequence[Mode]]) -> nx.DiGraph:
+def _held(linkage: Linkage, modes: Mapping[int, Sequence[Mode]]) -> nx.DiGraph:
     """Return a graph with an edge from a vertex to each that rests if it does, by the crease between them."""
     holds = nx.DiGraph()
     holds.add_nodes_from(modes)
@@ -180,7 +180,7 @@ def _held(linkage: PosedLinkage, modes: Mapping[int, Sequence[Mode]]) -> nx.DiGr
     return holds
 
 
-def _loops_of_joints(linkage: PosedLinkage) -> dict[int, list[int]]:
+def _loops_of_joints(linkage: Linkage) -> dict[int, list[int]]:
     loops_of: dict[int, list[int]] = {}
     for number, loop in enumerate(linkage.loops):
         for joint in loop.joints:
@@ -237,7 +237,7 @@ def _normal(clusters: dict[int, int], parts: dict[int, tuple[int, float]], after
     return tuple(new), tuple(sizes)
 
 
-def _no_vertex_rests(linkage: PosedLinkage, modes: Sequence[tuple[Mode, ...]]) -> bool:
+def _no_vertex_rests(linkage: Linkage, modes: Sequence[tuple[Mode, ...]]) -> bool:
     """Tell whether every branch on which a vertex rests is part of one on which more of them move.
 
     A crease that moves in both modes of a vertex holds it if it rests. So with one vertex all rest that such creases
@@ -249,7 +249,7 @@ def _no_vertex_rests(linkage: PosedLinkage, modes: Sequence[tuple[Mode, ...]]) -
     return all(len(sink) == len(modes) or _moves_alone(linkage, modes, sorted(sink)) for sink in sinks)
 
 
-def _moves_alone(linkage: PosedLinkage, modes: Sequence[tuple[Mode, ...]], loops: Sequence[int]) -> bool:
+def _moves_alone(linkage: Linkage, modes: Sequence[tuple[Mode, ...]], loops: Sequence[int]) -> bool:
     """Tell whether some vertices can move with all creases to other vertices at rest."""
     inside = set(loops)
     outside = {joint for number, loop in enumerate(linkage.loops) if number not in inside for joint in loop.joints}

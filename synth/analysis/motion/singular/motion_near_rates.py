@@ -18,7 +18,7 @@ from graphs.rank.singular_values import Inertia, inertia, split
 from graphs.tolerances import DOUBLE, MARGIN, canonical_basis, canonical_order, signed, trailing
 from graphs.types import Floats, Ints
 from synth.analysis.motion.closure import ClosureEquations, corrected
-from synth.analysis.motion.linkage import PosedLinkage
+from synth.analysis.motion.linkage import Linkage
 from synth.analysis.motion.singular.sampling import rates_towards
 from synth.analysis.motion.singular.second_order import (
     Quadric,
@@ -143,7 +143,7 @@ class InitialMotion:
     folded: FoldedStart | None = None
 
 
-def begun_near(closure: ClosureEquations, linkage: PosedLinkage, wanted: Floats) -> InitialMotion:
+def begun_near(closure: ClosureEquations, linkage: Linkage, wanted: Floats) -> InitialMotion:
     """Return rates that agree to second order, near wanted ones, of a linkage too large for all its branches.
 
     From folded states along the wanted rates, if the linkage is flat; unless these lead to a motion with all of
@@ -176,7 +176,7 @@ def begun_near(closure: ClosureEquations, linkage: PosedLinkage, wanted: Floats)
 
 
 def _from_folded(
-    closure: ClosureEquations, linkage: PosedLinkage, quadrics: Sequence[Quadric], wanted: Floats
+    closure: ClosureEquations, linkage: Linkage, quadrics: Sequence[Quadric], wanted: Floats
 ) -> InitialMotion | None:
     """Return rates near those of a motion that is followed back from a folded state; None where none is found."""
     if np.abs(linkage.angles).max(initial=0.0) > DOUBLE.parallel:

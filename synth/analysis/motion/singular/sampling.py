@@ -16,7 +16,7 @@ from graphs.rank.singular_values import Split, inertia, singular_values, split
 from graphs.tolerances import DOUBLE, leading, signed, trailing
 from graphs.types import Floats, Ints
 from synth.analysis.motion.closure import MOST_WHOLE, ClosureEquations, corrected
-from synth.analysis.motion.linkage import PosedLinkage, moved
+from synth.analysis.motion.linkage import Linkage, moved
 from synth.analysis.motion.path import PathOptions, driven_path
 from synth.analysis.motion.singular import second_order
 from synth.analysis.motion.walk.step import Allowance
@@ -95,7 +95,7 @@ _BESIDE, _ASIDE = 8, 0.3
 _SHORT_OF = 0.7
 """This part of a path that ended early is taken again."""
 _SPACES = 512
-"""At a pose of a branch, after so many spaces of rates second order is said not to tell."""
+"""At a configuration of a branch, after so many spaces of rates second order is said not to tell."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -113,7 +113,7 @@ class TracedBranch:
 
 
 def followed(
-    linkage: PosedLinkage,
+    linkage: Linkage,
     closure: ClosureEquations,
     rates: Floats,
     immobile: tuple[int, ...] = (),
@@ -140,25 +140,25 @@ def followed(
 def walked(
     start: Floats, closure: ClosureEquations, rates: Floats, allowance: Allowance | None = None
 ) -> tuple[Floats, float]:
-    """Return the last general pose of a path that begins at some rates, and by how much it does not close."""
+    """Return the last general configuration of a path that begins at some rates, and by how much it does not close."""
     driver = leading(rates)
     options, goal = PathOptions(rates, straight=True), FOLLOWED * float(np.sign(rates[driver]))
     first = replace(options, allowance=allowance)  # the part that is taken again has no more steps
     path = driven_path(closure, start, [driver], start[driver] + goal, options=first)
     reached = float(path.angles[-1][driver] - start[driver])
-    if path.stopped and abs(reached) > DOUBLE.moved:  # the end of a path may be no general pose
+    if path.stopped and abs(reached) > DOUBLE.moved:  # the end of a path may be no general configuration
         path = driven_path(closure, start, [driver], start[driver] + _SHORT_OF * reached, options=options)
     return path.angles[-1], float(path.errors[-1])
 
 
 def in_half_tangents(closure: ClosureEquations, space: second_order.RateSpace, rates: Floats) -> TracedBranch:
-    """Return a pose of a branch along which tan(fold / 2) is any of its rates: its freedoms are as many."""
+    """Return a configuration of a branch along which tan(fold / 2) is any of its rates: its freedoms are as many."""
     end = 2.0 * np.arctan(tan(FOLLOWED / 2.0) * rates)
     return TracedBranch(space.basis.shape[1], end, closure.error(end), FOLLOWED)
 
 
-def freedoms_at(linkage: PosedLinkage, closure: ClosureEquations, angles: Floats) -> int | None:
-    """Return the freedoms of motions through a general closed pose, to second order; None where it cannot tell.
+def freedoms_at(linkage: Linkage, closure: ClosureEquations, angles: Floats) -> int | None:
+    """Return the freedoms of motions through a general configuration, to second order; None where it cannot tell.
 
     A branch may run along where others meet it, of as many freedoms: then it is not told which of them it is on,
     but with how many freedoms.
@@ -172,10 +172,10 @@ def freedoms_at(linkage: PosedLinkage, closure: ClosureEquations, angles: Floats
     return freedoms.pop() if freedoms else 0
 
 
-def finite_rates(linkage: PosedLinkage, closure: ClosureEquations, angles: Floats) -> tuple[Floats, Floats | None]:
-    """Return the pose that is located at a general closed pose, and orthonormal rates of motions, float[J, M].
+def finite_rates(linkage: Linkage, closure: ClosureEquations, angles: Floats) -> tuple[Floats, Floats | None]:
+    """Return what is located at a general closed configuration, and orthonormal rates of motions, float[J, M].
 
-    Rates that close to first order may be more than a linkage can use at every pose of a branch: a sheet that is
+    Rates that close to first order may be more than a linkage can use all along a branch: a sheet that is
     folded along one straight line, for instance, has creases that lie in one plane. There Newton's method ends a
     little beside the branch, and the configuration on it is located first. Of the rates there, those that close
     to second order are returned; None if they are no linear space, or not known to be one.
@@ -187,10 +187,8 @@ def finite_rates(linkage: PosedLinkage, closure: ClosureEquations, angles: Float
     return angles, spaces[0].basis if spaces else np.zeros((len(angles), 0))
 
 
-def _finite_spaces(
-    linkage: PosedLinkage, closure: ClosureEquations, angles: Floats
-) -> list[second_order.RateSpace] | None:
-    """Return the spaces of rates that close to second order at a closed pose; None if they are too many."""
+def _finite_spaces(linkage: Linkage, closure: ClosureEquations, angles: Floats) -> list[second_order.RateSpace] | None:
+    """Return the spaces of rates that close to second order at a closed configuration; None if they are too many."""
     tangent = second_order.rates_at(closure, angles)
     quadrics = second_order.all_quadrics(moved(linkage, angles), tangent)
     spaces = list(islice(second_order.spaces_within(tangent, quadrics), _SPACES + 1))

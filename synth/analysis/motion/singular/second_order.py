@@ -28,7 +28,7 @@ from graphs.rank.singular_values import inertia, null_space, null_vectors, row_s
 from graphs.tolerances import DOUBLE, canonical_basis, canonical_order, pivots, signed
 from graphs.types import Floats, Ints
 from synth.analysis.motion.closure import ClosureEquations
-from synth.analysis.motion.linkage import PosedLinkage, PosedLoop
+from synth.analysis.motion.linkage import Linkage, LinkageLoop
 from synth.analysis.motion.tangent import TangentSpace
 from synth.analysis.motion.walk.step import Allowance
 
@@ -45,7 +45,7 @@ class Quadric:
     form: Floats
 
 
-def quadrics_of(linkage: PosedLinkage, zero: float = DOUBLE.zero) -> list[Quadric]:
+def quadrics_of(linkage: Linkage, zero: float = DOUBLE.zero) -> list[Quadric]:
     """Return the equations of second order between the rates that the self-stresses of each loop alone give.
 
     Singular values below `zero` times the largest are zero, and forms whose entries are below it.
@@ -72,7 +72,7 @@ def quadrics_of(linkage: PosedLinkage, zero: float = DOUBLE.zero) -> list[Quadri
     return [quadric for of_loop in found for quadric in of_loop]
 
 
-def _quadrics_of_loop(linkage: PosedLinkage, loop: PosedLoop, zero: float) -> list[Quadric]:
+def _quadrics_of_loop(linkage: Linkage, loop: LinkageLoop, zero: float) -> list[Quadric]:
     """Return the equations of second order of one loop."""
     twists = _twists(linkage, loop)
     stresses = null_space(twists.T, zero)
@@ -81,7 +81,7 @@ def _quadrics_of_loop(linkage: PosedLinkage, loop: PosedLoop, zero: float) -> li
 
 
 def shared_quadrics(
-    linkage: PosedLinkage, tangent: Floats, alone: Sequence[Quadric], zero: float = DOUBLE.zero
+    linkage: Linkage, tangent: Floats, alone: Sequence[Quadric], zero: float = DOUBLE.zero
 ) -> list[Quadric]:
     """Return the equations that self-stresses of several loops give beyond those of the loops alone.
 
@@ -104,7 +104,7 @@ def shared_quadrics(
     return [Quadric(places, tangent @ form @ tangent.T) for form in beyond]
 
 
-def _second_order_by_loops(linkage: PosedLinkage, tangent: Floats) -> tuple[list[Floats], Floats]:
+def _second_order_by_loops(linkage: Linkage, tangent: Floats) -> tuple[list[Floats], Floats]:
     """Return the twists of each loop, and what closure equations see of pairs of rates: float[s, s, rows]."""
     size = tangent.shape[1]
     twists = [_twists(linkage, loop) for loop in linkage.loops]
@@ -116,7 +116,7 @@ def _second_order_by_loops(linkage: PosedLinkage, tangent: Floats) -> tuple[list
     return twists, seen
 
 
-def all_quadrics(linkage: PosedLinkage, tangent: Floats, zero: float = DOUBLE.zero) -> list[Quadric]:
+def all_quadrics(linkage: Linkage, tangent: Floats, zero: float = DOUBLE.zero) -> list[Quadric]:
     """Return the equations of the loops alone and `shared_quadrics`; of many closure equations for few rates only.
 
     Loops without a centre that are listed are a choice among many: what they have alone is among the shared ones.
@@ -134,13 +134,13 @@ def all_quadrics(linkage: PosedLinkage, tangent: Floats, zero: float = DOUBLE.ze
         return quadrics_of(linkage, zero)
 
 
-def _in_a_plane(linkage: PosedLinkage) -> bool:
+def _in_a_plane(linkage: Linkage) -> bool:
     """Tell whether all axes lie in directions of a plane, and all loops are about points: none share a self-stress."""
     about = all(loop.centre is Centre.FINITE for loop in linkage.loops)
     return about and bool(singular_values(linkage.directions)[-1] <= DOUBLE.parallel)
 
 
-def _shared_of_many(linkage: PosedLinkage, tangent: Floats, alone: Sequence[Quadric], zero: float) -> list[Quadric]:
+def _shared_of_many(linkage: Linkage, tangent: Floats, alone: Sequence[Quadric], zero: float) -> list[Quadric]:
     """Return `shared_quadrics` of many closure equations, without their self-stresses.
 
     All self-stresses together see of second-order terms what no rates make up for. That part of them, for each pair of
@@ -165,7 +165,7 @@ def _shared_of_many(linkage: PosedLinkage, tangent: Floats, alone: Sequence[Quad
     return [Quadric(tuple(few), shares.T @ form @ shares) for form in beyond]
 
 
-def rows_of(linkage: PosedLinkage) -> int:
+def rows_of(linkage: Linkage) -> int:
     """Return the number of closure equations: three of a loop about a point, six of any other."""
     return sum(3 if loop.centre is Centre.FINITE else 6 for loop in linkage.loops)
 
@@ -187,8 +187,8 @@ def _beyond(rows: Floats, known: Floats, zero: float) -> Floats:
     return row_space(rows, zero, scale=1.0).T  # stresses and rates are unit vectors, brackets of the size of one
 
 
-def _twists(linkage: PosedLinkage, loop: PosedLoop) -> Floats:
-    """Return the twists of a loop's joints at the pose, as the loop passes them: float[3 or 6, k]."""
+def _twists(linkage: Linkage, loop: LinkageLoop) -> Floats:
+    """Return the twists of a loop's joints at the configuration, as the loop passes them: float[3 or 6, k]."""
     joints = list(loop.joints)
     axes = linkage.directions[joints] * np.array(loop.signs, dtype=float)[:, None]
     if loop.centre is Centre.FINITE:  # about the centre there are no moments
@@ -528,13 +528,13 @@ class Rigidity:
 
 
 def rigidity_of(
-    linkage: PosedLinkage, closure: ClosureEquations | None = None, zero: float = DOUBLE.zero, *, refuted: bool = False
+    linkage: Linkage, closure: ClosureEquations | None = None, zero: float = DOUBLE.zero, *, refuted: bool = False
 ) -> Rigidity:
     """Look for a proof that a linkage cannot move from its configuration.
 
     Parameters
     ----------
-    linkage : PosedLinkage
+    linkage : Linkage
         With closed loops.
     closure : ClosureEquations, optional
         Of this linkage, if already computed.

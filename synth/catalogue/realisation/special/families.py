@@ -32,7 +32,7 @@ from graphs.tolerances import DOUBLE, leading
 from graphs.types import Floats
 from synth.analysis.motion.closure import ClosureEquations
 from synth.analysis.motion.derivatives import dependence_on_axes
-from synth.analysis.motion.linkage import PosedLinkage, linkage_of_axes
+from synth.analysis.motion.linkage import Linkage, linkage_of_axes
 from synth.analysis.motion.walk.step import Allowance
 from synth.catalogue.realisation.conditions import (
     Condition,
@@ -178,7 +178,7 @@ _CONDITIONS = LevenbergMarquardt(
 """Axes that meet conditions."""
 
 
-def linkage_at(graph: SCGraph, axes: Floats) -> PosedLinkage:
+def linkage_at(graph: SCGraph, axes: Floats) -> Linkage:
     """Return a linkage with axes float[J, 6], a point and a direction each."""
     pairs = zip(graph.joints, axes.tolist(), strict=True)
     return linkage_of_axes(graph, {joint: (axis[:3], axis[3:]) for joint, axis in pairs})
@@ -203,25 +203,25 @@ def axes_along_a_motion(
     closure = ClosureEquations(linkage_at(graph, start[:joints]))
     jacobian = closure.at(np.zeros(joints))[1].toarray()
     rates = np.linalg.eigh(jacobian.T @ jacobian)[1][:, 0]
-    poses = _Poses(graph, conditions, start.shape, leading(rates))
-    rates = rates / rates[poses.driver]
+    configurations = _Configurations(graph, conditions, start.shape, leading(rates))
+    rates = rates / rates[configurations.driver]
     rows, angles = start, np.zeros((1, joints))
     # each configuration adds equations: after so many no dimension, or a few, is left to choose
     each = closure.rows - (closure.joints - 1)
     needed = min(_MOTION.most, ceil((4 * closure.joints - 7) / max(each, 1)) + 1)
     for number in range(1, needed + 1):
         angles = np.vstack([angles, angles[-1] + rates * _MOTION.turn])
-        solution = _solved(poses.system(number), poses.joined(rows, angles[1:]), work)
+        solution = _solved(configurations.system(number), configurations.joined(rows, angles[1:]), work)
         if solution is None:
             return None
-        rows, at_poses = poses.parted(solution, number)
-        angles = np.vstack([np.zeros((1, joints)), at_poses])
+        rows, at_configurations = configurations.parted(solution, number)
+        angles = np.vstack([np.zeros((1, joints)), at_configurations])
         rates = (angles[-1] - angles[-2]) / _MOTION.turn
     return rows
 
 
 @dataclass(frozen=True)
-class _Poses:
+class _Configurations:
     """Unknowns of axes, and of the angles of all joints but the driven one at each configuration."""
 
     graph: SCGraph
@@ -502,14 +502,14 @@ class AxisFamily:
     """Realisations of a type whose axes obey further conditions.
 
     `meetings` are axes that are parallel, or meet, besides those of the type; `motion` is a symmetry, `equal` are
-    loops of equal links; `poses`: loops have to close at several configurations.
+    loops of equal links; `configurations`: loops have to close at several configurations.
     """
 
     name: str
     meetings: tuple[AxisGroup, ...] = ()
     motion: AxisSymmetry | None = None
     equal: tuple[tuple[int, ...], ...] = ()
-    poses: bool = field(default=False, kw_only=True)
+    configurations: bool = field(default=False, kw_only=True)
 
     def member(self, of: TypeOfAxes, random: np.random.Generator, work: Allowance) -> Floats | None:
         """Return axes of a member, float[J, 6], from a random start; None if none was found."""
@@ -527,7 +527,7 @@ class AxisFamily:
             start[list(loop), :3] = circle + _NOISE * start[list(loop), :3]
         start[:, 3:] = unit(start[:, 3:])
         rows = axes_meeting(conditions, start, work)
-        if rows is not None and self.poses:
+        if rows is not None and self.configurations:
             rows = axes_along_a_motion(of.graph, conditions, rows, work)
         return None if rows is None else rows[:joints]
 
@@ -559,8 +559,8 @@ def axis_families(of: TypeOfAxes) -> Iterator[AxisFamily]:
         yield AxisFamily(name, motion=motion)
     for name, motion in motions:
         if np.allclose(motion.matrix @ motion.matrix, np.eye(3)):
-            yield AxisFamily(f"{name}, poses that close", motion=motion, poses=True)
-    yield AxisFamily("poses that close", poses=True)
+            yield AxisFamily(f"{name}, poses that close", motion=motion, configurations=True)
+    yield AxisFamily("poses that close", configurations=True)
 
 
 def solids_of(of: TypeOfAxes, axes: Floats) -> HingedSolids:

@@ -16,13 +16,14 @@ from graphs.mechanism.solids import HingedSolids
 from graphs.types import Floats, JointId, LinkId
 from synth.analysis.folding.configuration import SheetConfiguration
 from synth.analysis.moving._configuration_of import configuration_of
-from synth.analysis.moving.motion import poses_of_file
+from synth.analysis.moving.motion import configurations_of_file
 from synth.making.drawing.layout.mechanisms import layout_of
 from synth.making.drawing.mechanisms.labelling import beside, placed
 from synth.making.drawing.scene.frame import PLAIN, PictureOptions, captions_of, framed, page_of
 from synth.making.drawing.scene.shapes import NORMAL, SMALL, STRONG, Disc, Label, Layer, Line, Point, Shape
 from synth.making.drawing.scene.writing import Scene
 from synth.making.drawing.space.captions import FoldedStates, camera_line
+from synth.making.drawing.space.motion_files import strip_of_frames
 from synth.making.drawing.space.panels import (
     SpatialPanels,
     bodies_of,
@@ -31,7 +32,6 @@ from synth.making.drawing.space.panels import (
     view_from_above,
     view_of_motion,
 )
-from synth.making.drawing.space.poses import strip_of_poses
 from synth.making.drawing.space.solids import faces_of_shapes
 
 _MANY = 60
@@ -46,14 +46,14 @@ def folded_scene(sheet: Sheet | SheetConfiguration, options: PictureOptions = PL
     Raise UnsolvableError if the sheet has no coordinates.
     """
     drawn = sheet.drawn if isinstance(sheet, SheetConfiguration) else sheet
-    sheets = poses_of_file(drawn).sheets
+    sheets = configurations_of_file(drawn).sheets
     if sheets[0].coordinates is None:
         raise UnsolvableError("a picture in space requires a sheet with coordinates; try `synth realise`")
     states = FoldedStates(sheets)
     points = states.places[0]
     if len(sheets) > 1:
         lines = captions_of(options.caption, camera_line(view_of_motion(points)))
-        return strip_of_poses(sheets[0], states.places, names=states.names(), said=[*lines, *states.lines()])
+        return strip_of_frames(sheets[0], states.places, names=states.names(), said=[*lines, *states.lines()])
     panels = panels_of(sheet if isinstance(sheet, SheetConfiguration) else sheets[0])
     links, joints = (len(set(names.values())) for names in (panels.link_of, panels.joint_of))
     said = f"{numbered(links, 'link')}, {numbered(joints, 'joint')}; {camera_line(view_from_above(points))}"

@@ -17,7 +17,7 @@ from graphs.mechanism.sheet import Sheet, sides_of_face, with_all_edges
 from graphs.tolerances import DOUBLE, trailing
 from graphs.types import Floats, JointId, LinkId
 from synth.analysis.folding.configuration import SheetConfiguration
-from synth.analysis.motion.linkage import PosedLinkage, link_motions
+from synth.analysis.motion.linkage import Linkage, link_motions
 from synth.making.drawing.scene.shapes import FINE, NORMAL, STRONG, Line, Point, Polygon, Shape
 
 HINGE = "H"
@@ -81,7 +81,7 @@ def _axes(points: Floats) -> tuple[Floats, bool]:
 
 
 def view_of_motion(points: Floats) -> View:
-    """Return the view of a motion from the points, float[n, 3], of its first pose.
+    """Return the view of a motion from the points, float[n, 3], of its first frame.
 
     It is aslant from above their plane, or with z upwards if they lie in no plane.
 
@@ -256,7 +256,7 @@ def _normal(corners: Floats) -> Floats:
     return unit(area) if has_area else np.zeros(3)
 
 
-def bodies_of(linkage: PosedLinkage) -> tuple[SpatialPanels, Floats]:
+def bodies_of(linkage: Linkage) -> tuple[SpatialPanels, Floats]:
     """Return the faces of all links, their front outside, and the corners at the configuration: float[2 J, 3].
 
     Corners 2 j and 2 j + 1 are the ends of hinge j, in units of the extent. A link with one hinge has no body.
@@ -273,7 +273,7 @@ def bodies_of(linkage: PosedLinkage) -> tuple[SpatialPanels, Floats]:
     return SpatialPanels(faces, link_of, joint_of, dict.fromkeys(joint_of, HINGE), solid=True), corners
 
 
-def places_of_hinges(linkage: PosedLinkage, angles: Floats) -> Floats:
+def places_of_hinges(linkage: Linkage, angles: Floats) -> Floats:
     """Return the ends of hinges in many configurations, float[F, 2 J, 3], numbered as in `bodies_of`.
 
     Joint angles are float[F, J], radians.
@@ -286,7 +286,7 @@ def places_of_hinges(linkage: PosedLinkage, angles: Floats) -> Floats:
     return np.concatenate(places, axis=1)
 
 
-def hinge_ends(linkage: PosedLinkage) -> Floats:
+def hinge_ends(linkage: Linkage) -> Floats:
     """Return the ends of the piece of each axis that is drawn: float[J, 2, 3].
 
     Its middle is that of the feet of the common perpendiculars to the other axes of the two links.
@@ -311,7 +311,7 @@ def hinge_ends(linkage: PosedLinkage) -> Floats:
     return np.stack([middles - along, middles + along], axis=1)
 
 
-def joints_of_links(linkage: PosedLinkage) -> dict[LinkId, list[int]]:
+def joints_of_links(linkage: Linkage) -> dict[LinkId, list[int]]:
     """Return the indices of the joints of each link."""
     joints_of: dict[LinkId, list[int]] = {link: [] for link in linkage.graph.nodes}
     for joint, ends in enumerate(linkage.graph.joints.values()):
@@ -320,7 +320,7 @@ def joints_of_links(linkage: PosedLinkage) -> dict[LinkId, list[int]]:
     return joints_of
 
 
-def _foot(linkage: PosedLinkage, hinge: int, other: int) -> Floats:
+def _foot(linkage: Linkage, hinge: int, other: int) -> Floats:
     """Return the point of an axis nearest to another; to a parallel one, nearest to its reference point."""
     p, d = linkage.points[hinge], linkage.directions[hinge]
     q, e = linkage.points[other], linkage.directions[other]

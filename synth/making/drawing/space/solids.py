@@ -12,7 +12,7 @@ from graphs.mechanism.sheet import sides_of_face
 from graphs.mechanism.solids import HingedSolids, LinkShape
 from graphs.tolerances import DOUBLE
 from graphs.types import Floats
-from synth.analysis.motion.linkage import PosedLinkage, placed_links
+from synth.analysis.motion.linkage import Linkage, placed_links
 from synth.making.drawing.space.panels import HINGE, INNER, SpatialPanels
 
 
@@ -52,7 +52,7 @@ class SolidFaces:
     inner: list[tuple[int, int]]
     hinges: dict[tuple[int, int], int]
 
-    def panels(self, linkage: PosedLinkage) -> SpatialPanels:
+    def panels(self, linkage: Linkage) -> SpatialPanels:
         """Return the faces as pictures take them."""
         links, joints = list(linkage.graph.nodes), list(linkage.graph.joints)
         letters = dict.fromkeys((frozenset(side) for side in self.inner), INNER)
@@ -63,13 +63,13 @@ class SolidFaces:
             joint_of, letters | dict.fromkeys(joint_of, HINGE), solid=True,
         )  # fmt: skip
 
-    def places(self, linkage: PosedLinkage, angles: Floats) -> Floats:
+    def places(self, linkage: Linkage, angles: Floats) -> Floats:
         """Return the corners at joint angles float[F, J], radians: float[F, n, 3]."""
         rotations, shifts = placed_links(linkage, angles)
         return np.asarray(np.einsum("fnij,nj->fni", rotations[:, self.owners], self.corners) + shifts[:, self.owners])
 
 
-def faces_of_shapes(solids: HingedSolids, linkage: PosedLinkage) -> SolidFaces:
+def faces_of_shapes(solids: HingedSolids, linkage: Linkage) -> SolidFaces:
     """Return the faces of the shapes of hinged solids, with the linkage of their axes."""
     number = {link: place for place, link in enumerate(linkage.graph.nodes)}
     joints_of: dict[int, list[int]] = defaultdict(list)
@@ -135,7 +135,7 @@ def _outline(faces: Sequence[Sequence[int]]) -> list[int]:
     return loop if len(loop) == len(border) else []
 
 
-def _on_axis(ends: Floats, linkage: PosedLinkage, joint: int) -> bool:
+def _on_axis(ends: Floats, linkage: Linkage, joint: int) -> bool:
     """Check whether both ends of a side lie on the axis of a joint."""
     off = np.cross(ends - linkage.points[joint], linkage.directions[joint])
     return bool(np.abs(off).max() <= DOUBLE.meant)

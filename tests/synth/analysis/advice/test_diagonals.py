@@ -11,10 +11,10 @@ from graphs.creasing.edits import crease_sheet
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.files.formats import read
 from graphs.mechanism.sheet import Sheet
-from graphs.rank.pose import pose_mobility
+from graphs.rank.infinitesimal import infinitesimal_mobility
 from synth.analysis.advice.advice import advise
 from synth.analysis.advice.diagonals import diagonals_of, freedoms_when_creased, loads_on_stresses
-from synth.analysis.advice.locks import general_pose
+from synth.analysis.advice.locks import general_configuration
 from synth.analysis.moving._configuration_of import configuration_of
 from synth.catalogue.patterns._generate import generate
 
@@ -32,7 +32,7 @@ def creased(sheet, diagonals):
 @pytest.mark.parametrize("sheet", [folded_miura(3), slow(generate("box-pop-up").mechanism)], ids=["miura", "pop-up"])
 def test_columns_say_what_the_creased_sheet_does(sheet):
     """Rates by columns on the self-stresses, and by the closure equations of the sheet with the creases."""
-    pose = general_pose(configuration_of(sheet))
+    pose = general_configuration(configuration_of(sheet))
     diagonals = diagonals_of(pose)
     loads, flaps = loads_on_stresses(pose, diagonals)
     assert any(flaps)
@@ -43,7 +43,7 @@ def test_columns_say_what_the_creased_sheet_does(sheet):
     for places in [*((k,) for k in range(len(diagonals))), *rng.permutation(pairs)[:20].tolist()]:
         gained = len(places) - np.linalg.matrix_rank(loads[:, list(places)], tol=1e-8)
         made = creased(pose.sheet, [diagonals[place] for place in places])
-        assert pose_mobility(made).dof == pose.freedoms + gained
+        assert infinitesimal_mobility(made).dof == pose.freedoms + gained
 
 
 def test_a_miura_sheet_gets_its_freedom_in_corner_panels_only():
@@ -56,7 +56,7 @@ def test_a_miura_sheet_gets_its_freedom_in_corner_panels_only():
 
 @pytest.mark.slow
 def test_no_other_diagonal_of_a_miura_sheet_is_a_freedom():
-    pose = general_pose(configuration_of(folded_miura(4)))
+    pose = general_configuration(configuration_of(folded_miura(4)))
     gained = [one.panel for one in diagonals_of(pose) if freedoms_when_creased(pose.sheet, [one]) == 2]
     assert sorted(gained) == [0, 3, 12, 15]
 
@@ -75,7 +75,7 @@ def test_without_flaps_more_diagonals_are_needed():
 def test_diagonals_are_inside_panels_and_keep_clear_of_corners():
     corners = ((0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2), (3, 0), (3, 1))
     angle = Sheet(8, ((1, 2),), "V", ((0, 1, 2, 3, 4, 5), (1, 6, 7, 2)), corners)
-    ends = {one.ends for one in diagonals_of(general_pose(configuration_of(angle))) if one.panel == 0}
+    ends = {one.ends for one in diagonals_of(general_configuration(configuration_of(angle))) if one.panel == 0}
     assert ends == {(0, 2), (0, 3), (0, 4), (1, 3), (3, 5)}  # 1-4, 1-5 and 2-5 pass or touch corner 3; 2-4 is outside
 
 

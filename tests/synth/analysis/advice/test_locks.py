@@ -17,9 +17,9 @@ from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import HingedSolids
 from graphs.rank.exact import independent_cycles
-from graphs.rank.pose import pose_mobility
+from graphs.rank.infinitesimal import infinitesimal_mobility
 from synth.analysis.advice.advice import advise
-from synth.analysis.advice.locks import general_pose
+from synth.analysis.advice.locks import general_configuration
 from synth.analysis.moving._configuration_of import configuration_of
 from synth.analysis.moving.motion import move
 from synth.catalogue.patterns._generate import generate
@@ -107,13 +107,13 @@ def test_the_cheapest_come_first_and_what_is_protected_stays(seed):
 def test_locked_creases_of_a_sheet_are_rigid_by_its_panels(name, has):
     """The sheet with the creases made flat: its mechanism is another, with fewer links."""
     sheet = generate(name).mechanism
-    placed = general_pose(configuration_of(sheet)).sheet
-    assert pose_mobility(placed).dof == has
+    placed = general_configuration(configuration_of(sheet)).sheet
+    assert infinitesimal_mobility(placed).dof == has
     for lock in advise(sheet, has - 2, limit=4).locks:
         held = placed
         for joint in lock.joints:
             held = lock_crease(held, joint).sheet
-        assert pose_mobility(held).dof == has - 2 == lock.freedoms
+        assert infinitesimal_mobility(held).dof == has - 2 == lock.freedoms
 
 
 def test_creases_left_out_may_leave_what_locked_ones_do_not():

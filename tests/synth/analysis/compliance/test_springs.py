@@ -94,22 +94,22 @@ def test_moments_of_a_load_path_are_the_slopes_of_the_energy_and_work_is_what_it
     bending = elastic()
     goals = np.linspace(0.0, 0.6, 11)[1:]
     path = load_path(bending, bending.linkage.angles, 0, goals)
-    driven, ends = np.array([(pose.angles[0], pose.held[0]) for pose in path.poses]).T
+    driven, ends = np.array([(pose.angles[0], pose.held[0]) for pose in path.equilibria]).T
     cranks = START + driven
     assert not path.stopped
     assert driven[1:] == pytest.approx(goals, abs=1e-12)
     assert ends == pytest.approx((energy(cranks + 1e-5) - energy(cranks - 1e-5)) / 2e-5, abs=1e-8)
     step = goals[1] - goals[0]
     simpson = step / 3.0 * (ends[0] + ends[-1] + 4.0 * ends[1:-1:2].sum() + 2.0 * ends[2:-1:2].sum())
-    assert simpson == pytest.approx(path.poses[-1].energy - path.poses[0].energy, abs=1e-6)
-    assert [pose.energy for pose in path.poses] == pytest.approx(energy(cranks).tolist(), abs=1e-10)
+    assert simpson == pytest.approx(path.equilibria[-1].energy - path.equilibria[0].energy, abs=1e-6)
+    assert [pose.energy for pose in path.equilibria] == pytest.approx(energy(cranks).tolist(), abs=1e-10)
 
 
 def test_a_joint_that_is_not_the_crank_is_driven_as_well():
     """Work at the coupler's joint: the moment is dE / d(angle of that joint), both by the crank."""
     bending = elastic()
     path = load_path(bending, bending.linkage.angles, 1, [-0.1, -0.2, -0.3])
-    for pose in path.poses:
+    for pose in path.equilibria:
         crank = START + pose.angles[0]
         by_crank = (energy(crank + 1e-5) - energy(crank - 1e-5)) / 2e-5
         turns = (turned(crank + 1e-5) - turned(crank - 1e-5))[1] / 2e-5
@@ -181,9 +181,9 @@ def test_an_unstable_equilibrium_grows():
     """Half-way between two crank angles with the spring at rest the energy falls both ways."""
     bending = elastic({2: 1.0}, {2: 0.0})
     path = load_path(bending, bending.linkage.angles, 0, [-START])
-    assert path.poses[-1].held[0] == pytest.approx(0.0, abs=1e-9)
-    assert path.poses[-1].energy == pytest.approx(energy(0.0, {2: 1.0}, {2: 0.0}))
-    top = equilibrium(bending, path.poses[-1].angles)
+    assert path.equilibria[-1].held[0] == pytest.approx(0.0, abs=1e-9)
+    assert path.equilibria[-1].energy == pytest.approx(energy(0.0, {2: 1.0}, {2: 0.0}))
+    top = equilibrium(bending, path.equilibria[-1].angles)
     assert not top.stable
     b = corners(START)[2]
     [mode] = small_motions(bending, top, Masses((Mass(2, 1.0, (*b.tolist(), 0.0)),)))
@@ -253,11 +253,11 @@ def test_springs_of_many_copies_are_those_of_each():
     assert (len(table), table.path.shape, table.why) == (4, (4, 4, 5), {})
     for copy in range(4):
         one = states(mechanism, springs=copies[copy], drive=drive, masses=masses)
-        pose = one.elastic.pose
+        pose = one.elastic.balance
         np.testing.assert_array_equal(table.angles[copy], pose.angles)
         assert (table.energy[copy], table.least[copy], table.stable[copy]) == (pose.energy, pose.least, pose.stable)
-        np.testing.assert_array_equal(table.path[copy], [point.pose.angles for point in one.elastic.path])
-        np.testing.assert_array_equal(table.moments[copy], [point.pose.held[0] for point in one.elastic.path])
+        np.testing.assert_array_equal(table.path[copy], [point.balance.angles for point in one.elastic.path])
+        np.testing.assert_array_equal(table.moments[copy], [point.balance.held[0] for point in one.elastic.path])
         np.testing.assert_array_equal(table.frequencies[copy], [mode.frequency for mode in one.elastic.modes])
         now = table.now[copy]
         assert (set(now.active.joints), now.freedoms) == (set(one.now.active.joints), one.now.freedoms)

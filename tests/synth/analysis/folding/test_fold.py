@@ -24,7 +24,7 @@ from synth.analysis.motion.closure import ClosureEquations
 from synth.analysis.motion.linkage import linkage_of_axes, linkage_of_sheet
 from synth.analysis.motion.path import PathOptions, driven_path
 from synth.catalogue.patterns.creases import fan, miura
-from synth.making.drawing.space.poses import write_motion
+from synth.making.drawing.space.motion_files import write_motion
 
 ROOT = Path(__file__).resolve().parents[4]
 VERTEX = fan(np.radians([0, 60, 180, 300]), "MVVV")
@@ -256,7 +256,7 @@ def test_files_hold_every_pose(tmp_path):
     pose = sheet.frames.frame(4)
     np.testing.assert_allclose(pose.coordinates, folded.places[-1], atol=1e-12)
     assert pose.fold_angles[1] == pytest.approx(np.pi / 2)
-    assert synth.mobility(sheet, pose=4).pose.dof == 1
+    assert synth.mobility(sheet, frame=4).infinitesimal.dof == 1
     assert [p.name for p in write_motion(folded, tmp_path / "f.obj")] == [f"f-{k:03d}.obj" for k in range(4)]
     assert len(list(read_all(tmp_path / "f-003.obj"))) == 1
     with pytest.raises(FileError, match="exists already"):

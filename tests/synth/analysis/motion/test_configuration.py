@@ -26,7 +26,7 @@ def counted(monkeypatch):
     import sys
 
     made = Counter()
-    for module, name in [(duality, "mechanism_of_sheet"), (linkage, "_posed")]:
+    for module, name in [(duality, "mechanism_of_sheet"), (linkage, "_linkage")]:
         function = getattr(module, name)
 
         def count(*given, _name=name, _function=function, **more):
@@ -46,7 +46,7 @@ def test_one_question_makes_the_linkage_once(data, name, ask, counted):
     counted.clear()
     ask(sheet)
     layers = name == "bird-base.fold" and ask in (synth.mobility, shown_of)  # of the sheet as drawn, not as mended
-    assert counted == {"mechanism_of_sheet": 1 + layers, "_posed": 1}
+    assert counted == {"mechanism_of_sheet": 1 + layers, "_linkage": 1}
 
 
 def test_a_configuration_is_asked_again_and_again_without_being_made(data, counted):
@@ -56,7 +56,7 @@ def test_a_configuration_is_asked_again_and_again_without_being_made(data, count
     assert counted == {}
     assert all(answer.configuration is at for answer in answers)
     synth.draw(at)  # its caption has the fold angles of the sheet that is shown
-    assert counted == {"mechanism_of_sheet": 1, "_posed": 1}
+    assert counted == {"mechanism_of_sheet": 1, "_linkage": 1}
 
 
 def test_of_a_frame_the_linkage_is_that_of_the_frame(data):

@@ -11,9 +11,9 @@ from graphs.errors import InvariantError, UnsolvableError
 from graphs.files.formats import read, write
 from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.sheet import Sheet
-from synth.analysis.moving.motion import poses_of_file
+from synth.analysis.moving.motion import configurations_of_file
 from synth.making.drawing.space.captions import FoldedStates
-from synth.making.drawing.space.poses import write_motion
+from synth.making.drawing.space.motion_files import write_motion
 
 
 @pytest.fixture(scope="module")
@@ -48,7 +48,7 @@ def test_a_file_of_a_motion_rests_in_its_last_pose(folded, bird):
     for frame, height in ((0, True), (1, False), ("last", True)):
         coordinates = np.array(synth.in_configuration(sheet, frame).coordinates)
         assert bool(np.ptp(coordinates[:, 2]) > 0.1) is height
-    of_file = poses_of_file(sheet)
+    of_file = configurations_of_file(sheet)
     assert (len(of_file.sheets), of_file.resting, of_file.left_out) == (5, 4, 0)
 
 
@@ -131,7 +131,7 @@ def test_files_are_written_in_the_configuration(vertex, bird, folded, tmp_path):
 def test_pictures_of_frames_say_their_angles(folded, tmp_path):
     labels = [label.text for label in synth.draw(folded).labels()]
     sheet = read(folded)
-    states = FoldedStates(poses_of_file(sheet).sheets)
+    states = FoldedStates(configurations_of_file(sheet).sheets)
     crease = list(states.mechanism.hinges)[states.most_folded]
     written = [np.degrees(sheet.frames.frame(frame).fold_angles[crease]) for frame in range(1, 6)]
     assert [text for text in labels if "°" in text] == [f"{k}: {angle:.4g}°" for k, angle in enumerate(written)]

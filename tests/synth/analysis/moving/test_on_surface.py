@@ -7,7 +7,7 @@ from math import degrees
 import numpy as np
 import pytest
 from commands import run
-from four_bar_poses import poses_from_conformed
+from four_bar_configurations import configurations_from_conformed
 from sizes import first_quick, slow
 
 from graphs.errors import InvariantError, UnsolvableError
@@ -46,7 +46,7 @@ def agrees_with_the_closed_form(motion):
     places = np.array(motion.on_surface.places)
     steps = turned(np.roll(places, -1) - places)
     steps = np.array([steps[1], steps[2], steps[3], steps[0]])  # O A, A B, B C, C O
-    closed = poses_from_conformed(steps, motion.on_surface.cone_angle, [each.at for each in motion.positions])
+    closed = configurations_from_conformed(steps, motion.on_surface.cone_angle, [each.at for each in motion.positions])
     assert {each.at for each in motion.positions}
     for at in {each.at for each in motion.positions}:
         (number,) = [i for i, each in enumerate(motion.positions) if each.at == at and each.direct]

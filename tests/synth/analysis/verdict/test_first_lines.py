@@ -44,7 +44,7 @@ def test_degrees_of_freedom_are_never_negative(vertices):
 def test_a_placed_rod_has_no_negative_freedoms_either():
     rod = PolyhedronModel(2, [(0, 1)], coordinates={0: (0, 0, 0), 1: (1, 2, 3)})
     answer = synth.mobility(rod)
-    assert (answer.pose.dof, answer.verdict.freedoms) == (0, 0)
+    assert (answer.infinitesimal.dof, answer.verdict.freedoms) == (0, 0)
     (told,) = json.loads(run("mobility", seed_file("one-rod"), "--json").stdout)
     assert told["verdict"]["freedoms"] == 0
 

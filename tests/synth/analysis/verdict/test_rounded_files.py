@@ -121,7 +121,7 @@ def test_noise_that_is_estimated_or_stated(noise):
 def test_the_pose_far_away_is_ranked():
     sheet = generate("map").mechanism
     places = np.array(sheet.coordinates)
-    near, far = synth.mobility(sheet).pose, synth.mobility(placed(sheet, places + 4e6)).pose
+    near, far = synth.mobility(sheet).infinitesimal, synth.mobility(placed(sheet, places + 4e6)).infinitesimal
     assert far.dof == near.dof
     assert far.precision.size < 1e-8
 

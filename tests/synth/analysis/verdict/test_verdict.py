@@ -54,7 +54,7 @@ def unmarked(sheet):
 def test_a_miura_sheet_folds_though_its_type_is_rigid():
     """Four by four: M = -3, six rates, eight ways, one freedom on the one that is marked."""
     answer = mobility(miura(4, 4, 1.0))
-    assert (answer.mobility, answer.exact.mobility, answer.pose.dof) == (-3, 0, 6)
+    assert (answer.mobility, answer.exact.mobility, answer.infinitesimal.dof) == (-3, 0, 6)
     assert (answer.verdict.freedoms, answer.verdict.basis, answer.verdict.certainty) == (1, "motion", "proved")
     assert answer.verdict.text == (
         "Rigid-foldable from the flat state with the given mountain-valley assignment: 1 degree of freedom. "

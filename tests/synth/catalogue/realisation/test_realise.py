@@ -13,7 +13,7 @@ from graphs.identity.chains import chain_id
 from graphs.identity.drawings import map_id, mechanism_from_map_id
 from graphs.loops.loop import Centre
 from graphs.mechanism.drawing import FaceKind
-from graphs.rank.pose import pose_mobility
+from graphs.rank.infinitesimal import infinitesimal_mobility
 from synth.analysis.folding.configuration import configuration_of_sheet
 from synth.catalogue.realisation._realise import Realisation, realise
 from synth.catalogue.realisation.drawing import drawings
@@ -75,7 +75,7 @@ def test_in_space_panels_are_plane_and_the_pose_moves_as_the_type_does(tmp_path)
         found = realise(mechanism_from_map_id(code), kind="space", tries=4)
         assert _read_back(found, tmp_path) == code
         assert found.figures.planarity < 1e-12
-        assert found.freedoms == found.mobility == pose_mobility(found.sheet).dof == 1
+        assert found.freedoms == found.mobility == infinitesimal_mobility(found.sheet).dof == 1
         assert "U" not in found.sheet.assignments
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from conical import FOUR_BAR, STEPHENSON, WATT, random_linkages, steps_of
-from four_bar_poses import poses_from_conformed
+from four_bar_configurations import configurations_from_conformed
 from second_methods import pole_axes, shadow_allows
 from sizes import slow
 
@@ -108,7 +108,7 @@ def test_ways_are_those_of_small_true_motion(rng):
     found = behaviour(ConformedChain.of(FOUR_BAR), places)
     compared = 0
     for i in range(300):
-        pose = poses_from_conformed(steps[i], lam[i], [1e-5, -1e-5])
+        pose = configurations_from_conformed(steps[i], lam[i], [1e-5, -1e-5])
         if not np.isfinite(pose.psi).all():
             continue
         lowered = pose.axes[:, 1:3, 1] + np.sin(lam[i])  # outward is along y

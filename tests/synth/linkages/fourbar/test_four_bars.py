@@ -5,14 +5,14 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from conical import random_lengths, random_link_angles, random_linkages
-from four_bar_poses import measured_dihedral_angles, poses_from_conformed
+from four_bar_configurations import configurations_from_conformed, measured_dihedral_angles
 from paper_formulas import in_a_hemisphere, input_limits_planar, transmission_planar
 from sizes import slow
 
 from graphs.errors import InvariantError
 from graphs.geometry import angles_between
 from graphs.mechanism.surfaces import joint_axes
-from synth.linkages.conformed.pose import dihedral_angles
+from synth.linkages.conformed.dihedrals import dihedral_angles
 from synth.linkages.fourbar.closing import (
     kind_of_planar,
     kind_of_spherical,
@@ -133,7 +133,7 @@ def test_transmission_angles(rng):
 
 def test_motion_from_the_conformed_pose_keeps_the_links(rng):
     for i, (_, steps, lam, angles) in enumerate(zip(*random_linkages(rng, 200), strict=True)):
-        found = poses_from_conformed(steps, lam, np.linspace(-0.3, 0.3, 7))
+        found = configurations_from_conformed(steps, lam, np.linspace(-0.3, 0.3, 7))
         there = np.isfinite(found.psi)
         assert there[3], i
         lengths = angles_between(found.axes, np.roll(found.axes, -1, axis=1))
@@ -147,7 +147,7 @@ def test_motion_from_the_conformed_pose_keeps_the_links(rng):
 ])  # fmt: skip
 def test_poses_that_cannot_be(steps, lam, message):
     with pytest.raises(InvariantError, match=message):
-        poses_from_conformed(np.radians(steps), np.radians(lam), [0.0])
+        configurations_from_conformed(np.radians(steps), np.radians(lam), [0.0])
 
 
 def test_dihedral_angles_measured_in_space(rng):

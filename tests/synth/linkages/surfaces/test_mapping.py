@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from by_coordinates import cone_angles_by_coordinates, polygons_by_coordinates, quadrilaterals_by_coordinates
 from conical import random_lengths, random_link_angles, random_linkages
-from four_bar_poses import check_pose
+from four_bar_configurations import check_configuration
 from paper_formulas import central_angles, projected_angles
 from scipy.optimize import brentq, minimize_scalar
 from sizes import first_quick, slow, slow_but
@@ -117,7 +117,7 @@ def test_mapped_linkages_rebuilt_in_space(links, rng):
     assert len(found.loop) > 400
     steps = 2 * found.signs * half_steps(found.size[:, None], cone_reach(angles)[found.loop], 1)
     lam = np.arctan(np.sqrt(found.size))
-    check = check_pose(angles[found.loop], steps, lam)
+    check = check_configuration(angles[found.loop], steps, lam)
     assert check.link_angles.max() < 1e-12
     assert check.on_cone.max() < 1e-12
 

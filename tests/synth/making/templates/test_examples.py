@@ -5,7 +5,7 @@ import pytest
 from sizes import slow
 
 from graphs.files.formats import read
-from graphs.rank.pose import pose_mobility
+from graphs.rank.infinitesimal import infinitesimal_mobility
 from synth.analysis.folding.motion import fold
 from synth.catalogue.patterns._generate import generate
 from synth.making.templates.template import pictured, template_of
@@ -25,4 +25,4 @@ def test_examples_print_with_a_picture_and_fold(name, data):
     folding = fold(sheet, frames=4)
     assert np.abs(folding.path.angles[-1] - folding.path.angles[0]).max() > np.radians(60)
     assert folding.closure < 1e-9
-    assert pose_mobility(folding.frames()[1]).dof == EXAMPLES[name]
+    assert infinitesimal_mobility(folding.frames()[1]).dof == EXAMPLES[name]

@@ -16,7 +16,7 @@ from synth.analysis.folding.motion import fold
 from synth.catalogue.patterns._generate import generate
 from synth.making.drawing.scene.shapes import Polygon
 from synth.making.templates.pages import Paper, pages_of
-from synth.making.templates.template import folded_pose, pictured, template_of
+from synth.making.templates.template import folded_sheet, pictured, template_of
 
 A4 = Paper(210, 297)
 
@@ -65,8 +65,8 @@ def test_the_picture_lies_on_the_page_below_the_steps(wide, high):
 def test_the_pose_is_the_one_that_stands_or_a_frame_or_the_sheet_folded_as_its_letters_say(tmp_path):
     flat = generate("miura").mechanism
     standing = generate("miura", fold=1.0).mechanism
-    assert folded_pose(standing) == (standing, "as it stands")
-    pose, seen = folded_pose(flat)
+    assert folded_sheet(standing) == (standing, "as it stands")
+    pose, seen = folded_sheet(flat)
     assert seen == "folded half way"
     assert not lies_flat(pose)
     turned = [angle for angle in pose.fold_angles if angle]
@@ -75,7 +75,7 @@ def test_the_pose_is_the_one_that_stands_or_a_frame_or_the_sheet_folded_as_its_l
     run("generate", "miura", "-o", tmp_path / "miura.fold")
     run("fold", tmp_path / "miura.fold", "--frames", 3, "-o", tmp_path / "frames.fold")
     framed = read(tmp_path / "frames.fold")
-    pose, seen = folded_pose(framed)
+    pose, seen = folded_sheet(framed)
     assert seen == "as it stands"  # it rests folded
     assert pose.coordinates in [frame.coordinates for frame in fold(flat, frames=3).frames()]
 

@@ -16,7 +16,7 @@ from graphs.errors import InvariantError, UnsolvableError
 from graphs.files.formats import read, write
 from graphs.mechanism.sheet import Sheet, with_all_edges
 from synth.catalogue.patterns._generate import generate
-from synth.making.templates.solids import SheetPlates, fitted_size, plates_in_space, poses_of, write_solids
+from synth.making.templates.solids import SheetPlates, fitted_size, frames_of, plates_in_space, write_solids
 
 FOLDED = {"miura": 1.0, "box-pop-up": 1.0, "miura-tube": None, "kresling": None, "square-twist": 0.5, "slit-array": 0.4}
 QUICK = ("miura", "box-pop-up")
@@ -148,7 +148,7 @@ def turned(quaternion, corners):
 def test_gltf_moves_every_plate_with_its_panel(motion, tmp_path):
     run("convert", motion, tmp_path / "a.gltf", "--size", 100, "--thickness", 0.8)
     document = json.loads((tmp_path / "a.gltf").read_text(encoding="utf-8"))
-    sheet, poses, of_file = poses_of(read(motion))
+    sheet, poses, of_file = frames_of(read(motion))
     assert of_file.left_out == 0
     assert of_file.resting == len(poses) - 1  # the key frame is the last of the motion
     assert len(poses) > 4

@@ -7,7 +7,7 @@ from sizes import slow
 from synth.catalogue.patterns import GENERATORS, generate
 from synth.linkages.conformed.linkage_behaviour import loop_on_cones
 from synth.synthesis.designing.dimensions import ConeDimensions, dimensions_of
-from synth.synthesis.designing.poses import DesignPoint
+from synth.synthesis.designing.placement import DesignPoint
 from synth.synthesis.designing.problem import DesignProblem
 from synth.synthesis.designing.sizes import (
     BoxSize,

@@ -22,7 +22,7 @@ from synth.synthesis.designing import (
     design,
     read_wishes,
 )
-from synth.synthesis.designing.poses import DesignPoint
+from synth.synthesis.designing.placement import DesignPoint
 
 SHEET = generate("miura", rows=2, columns=2).mechanism
 MIDDLE = float(np.sqrt(3.0) / 2.0)

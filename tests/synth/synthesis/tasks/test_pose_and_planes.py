@@ -22,7 +22,7 @@ from synth.analysis.motion.linkage import link_motions
 from synth.analysis.moving._configuration_of import configuration_of
 from synth.synthesis.designing.defects import DefectKind
 from synth.synthesis.designing.designs import DesignSearch
-from synth.synthesis.designing.poses import DesignPoint
+from synth.synthesis.designing.placement import DesignPoint
 from synth.synthesis.designing.problem import DesignProblem
 from synth.synthesis.designing.wish_files import wishes_of_document
 from synth.synthesis.designing.wishes import LinkDirection, LinkOrientation, PointPlace
@@ -106,8 +106,10 @@ def test_a_design_begins_at_the_pose_only_if_a_wish_says_so(three):
     """`synth design` follows the configurations that are named, as before."""
     [candidate] = candidates_of(structure_of(three))
     search = CandidateSearch(three, candidate, 0).search(0)
-    assert search.problem.wishes.from_pose
-    assert not wishes_of_document({"format": "synthedra/wishes", "version": 1, **orientations(THREE)}, Path()).from_pose
+    assert search.problem.wishes.from_start
+    assert not wishes_of_document(
+        {"format": "synthedra/wishes", "version": 1, **orientations(THREE)}, Path()
+    ).from_start
 
 
 def test_planar_four_bars_turn_their_coupler(planar):

@@ -15,13 +15,13 @@ def bird_base(data):
 
 
 @pytest.fixture(scope="module")
-def general_pose(bird_base):
+def general_configuration(bird_base):
     """A pose of a branch on which all twenty creases fold."""
     return next(branch for branch in bird_base.branches.branches if not branch.immobile).sample
 
 
-def test_rates_are_those_of_the_dense_matrix(bird_base, general_pose):
-    angles = general_pose
+def test_rates_are_those_of_the_dense_matrix(bird_base, general_configuration):
+    angles = general_configuration
     basis = free_rates(bird_base.closure, angles)
     jacobian = bird_base.closure.at(angles)[1].toarray()
     assert basis.shape[1] == len(angles) - np.linalg.matrix_rank(jacobian, tol=1e-7)
@@ -31,8 +31,8 @@ def test_rates_are_those_of_the_dense_matrix(bird_base, general_pose):
 
 
 @pytest.mark.parametrize("first", first_quick(3, range(0, 20, 3)))
-def test_a_joint_for_each_freedom_the_wanted_one_first(bird_base, general_pose, first):
-    basis = free_rates(bird_base.closure, general_pose)
+def test_a_joint_for_each_freedom_the_wanted_one_first(bird_base, general_configuration, first):
+    basis = free_rates(bird_base.closure, general_configuration)
     joints = independent_joints(basis, first)
     assert joints[0] == first
     assert len(set(joints)) == len(joints) == basis.shape[1] == 5

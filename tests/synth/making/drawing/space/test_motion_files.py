@@ -11,8 +11,8 @@ from graphs.errors import FileError
 from graphs.files.formats import write
 from graphs.mechanism.sheet import Sheet
 from synth.making.drawing.scene.shapes import Polygon
+from synth.making.drawing.space.motion_files import frame_scenes, save_moving_frames, strip_of_frames
 from synth.making.drawing.space.panels import same_side_up
-from synth.making.drawing.space.poses import pose_scenes, save_moving_poses, strip_of_poses
 
 SQUARE = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0.0]])
 ABOVE = SQUARE + np.array([0, 0, 0.2])
@@ -29,7 +29,7 @@ def panels(scene):
 
 def test_the_panel_in_front_is_painted_last():
     low_first, high_first = (
-        next(pose_scenes(PAIR, np.concatenate(pair)[None])) for pair in ([SQUARE, ABOVE], [ABOVE, SQUARE])
+        next(frame_scenes(PAIR, np.concatenate(pair)[None])) for pair in ([SQUARE, ABOVE], [ABOVE, SQUARE])
     )
     heights = [[min(y for _, y in shape.points) for shape in panels(one)] for one in (low_first, high_first)]
     assert heights[0][0] > heights[0][1]  # higher up on the paper, where y is less
@@ -39,7 +39,7 @@ def test_the_panel_in_front_is_painted_last():
 def test_of_a_flat_sheet_one_side_is_seen_and_of_a_turned_one_the_other():
     """Though the file goes round its two panels in opposite senses."""
     for faces in (STRIP.faces, tuple(face[::-1] for face in STRIP.faces)):
-        scenes = pose_scenes(replace(STRIP, faces=faces), np.stack([FLAT, FLAT * [1, -1, -1]]))
+        scenes = frame_scenes(replace(STRIP, faces=faces), np.stack([FLAT, FLAT * [1, -1, -1]]))
         assert [{shape.fill for shape in panels(scene)} for scene in scenes] == [{"front"}, {"back"}]
 
 
@@ -52,14 +52,14 @@ def test_a_panel_edge_on_to_the_light_is_darker():
     standing = SQUARE @ np.array([[1, 0, 0], [0, 0, 1], [0, 1, 0.0]])
     shades = [
         next(shape.opacity for shape in scene.layers[0].shapes if getattr(shape, "fill", "") == "shadow")
-        for scene in pose_scenes(ONE, np.stack([lying, standing]))
+        for scene in frame_scenes(ONE, np.stack([lying, standing]))
     ]
     assert 0 < shades[0] < shades[1] < 1
 
 
 def test_a_strip_has_twelve_poses_at_most():
     poses = np.stack([SQUARE + np.array([0, 0, k]) for k in range(40)])
-    numbers = [label.text for label in strip_of_poses(ONE, poses).layers[-2].shapes]
+    numbers = [label.text for label in strip_of_frames(ONE, poses).layers[-2].shapes]
     assert len(numbers) == 12
     assert (numbers[0], numbers[-1]) == ("0", "39")
 
@@ -78,7 +78,7 @@ def test_the_command_writes_a_strip_without_matplotlib(tmp_path, monkeypatch):
 def test_a_moving_picture_goes_there_and_back(tmp_path):
     poses = np.stack([SQUARE * [1, 1 - k / 8, 1] for k in range(3)])
     place = tmp_path / "square.gif"
-    save_moving_poses(ONE, poses, place)
+    save_moving_frames(ONE, poses, place)
     with Image.open(place) as picture:
         assert picture.n_frames == 4
         shown = []
@@ -89,4 +89,4 @@ def test_a_moving_picture_goes_there_and_back(tmp_path):
     assert areas[0] > areas[1] > areas[2]
     assert areas[3] == areas[1]
     with pytest.raises(FileError, match="exists already"):
-        save_moving_poses(ONE, poses, place)
+        save_moving_frames(ONE, poses, place)

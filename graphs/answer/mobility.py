@@ -6,14 +6,14 @@ Theory: docs/theory/mobility-by-count.md, docs/theory/exact-mobility.md, docs/th
 from collections.abc import Callable
 from dataclasses import replace
 from math import pi
-from typing import Any, Literal
+from typing import Any
 
 import networkx as nx
 import numpy as np
 
 from graphs.answer.mobility_of_joints import chain_with_centres, mobility_of_jointed
 from graphs.answer.remote import notes_on_centres
-from graphs.answer.report import RODS_ALONE, MobilityAnswer, notes_of_pose
+from graphs.answer.report import RODS_ALONE, MobilityAnswer, notes_on_singular_values
 from graphs.convert.conversions import Mechanism, graph_of
 from graphs.convert.duality import SheetMechanism, mechanism_of_sheet
 from graphs.count.report import mobility_report
@@ -28,7 +28,12 @@ from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import HingedSolids
 from graphs.mechanism.surfaces import Cone, Cylinder, SurfaceLinkage
 from graphs.rank.exact import ExactMobility, diagnose, exact_mobility, independent_cycles
-from graphs.rank.pose import PoseMobility, pose_mobility, pose_mobility_of_axes, pose_mobility_of_model
+from graphs.rank.infinitesimal import (
+    InfinitesimalMobility,
+    infinitesimal_mobility,
+    infinitesimal_mobility_of_axes,
+    infinitesimal_mobility_of_model,
+)
 from graphs.rank.rods import exact_mobility_of_model
 from graphs.tolerances import DOUBLE
 
@@ -101,7 +106,7 @@ def _why_it_differs(answer: MobilityAnswer, mechanism: SCGraph | PolyhedronModel
     return text
 
 
-def with_pose(
+def with_infinitesimal(
     answer: MobilityAnswer, sheet: Sheet, mechanism: SheetMechanism, *, demanded: bool = False
 ) -> MobilityAnswer:
     """Add the infinitesimal degrees of freedom of a crease pattern at its coordinates.
@@ -111,29 +116,31 @@ def with_pose(
     """
     if sheet.coordinates is None and not demanded:
         return answer
-    pose = pose_mobility(sheet, mechanism)
-    return replace(answer, pose=pose).with_notes(warnings=[*notes_of_pose(pose), *_flat_notes(answer, pose)])
+    found = infinitesimal_mobility(sheet, mechanism)
+    return replace(answer, infinitesimal=found).with_notes(
+        warnings=[*notes_on_singular_values(found), *_flat_notes(answer, found)]
+    )
 
 
-def model_with_pose(answer: MobilityAnswer, model: PolyhedronModel) -> MobilityAnswer:
+def model_with_infinitesimal(answer: MobilityAnswer, model: PolyhedronModel) -> MobilityAnswer:
     """Add the freedoms of a polyhedron model at its coordinates, if it has any."""
     if not model.coordinates:
         return answer
     try:
-        pose = pose_mobility_of_model(model)
+        found = infinitesimal_mobility_of_model(model)
     except UnsolvableError as error:
         return answer.with_notes(warnings=[f"no degrees of freedom at this configuration: {error}"])
-    return replace(answer, pose=pose).with_notes(warnings=notes_of_pose(pose))
+    return replace(answer, infinitesimal=found).with_notes(warnings=notes_on_singular_values(found))
 
 
-def _flat_notes(answer: MobilityAnswer, pose: PoseMobility) -> list[str]:
+def _flat_notes(answer: MobilityAnswer, found: InfinitesimalMobility) -> list[str]:
     """Caution where creases lie in one plane, if anything is gained by it."""
-    gained = pose.dof is None or (answer.mobility is not None and pose.dof > answer.mobility)
-    if not pose.flat_loops or not gained:
+    gained = found.dof is None or (answer.mobility is not None and found.dof > answer.mobility)
+    if not found.flat_loops or not gained:
         return []
-    if pose.flat:
+    if found.flat:
         return ["flat state: the sheet has fewer infinitesimal degrees of freedom once folded"]
-    flat = f"{numbered(pose.flat_loops, 'loop')} with all axes in one plane"
+    flat = f"{numbered(found.flat_loops, 'loop')} with all axes in one plane"
     return [f"{flat}: fewer infinitesimal degrees of freedom once folded"]
 
 
@@ -141,12 +148,13 @@ _ANY_CONE = Cone(pi / 4)
 """Rank at the conformed position does not depend on the cone angle (docs/theory/behaviour.md)."""
 
 
-def mobility(
+def counts_and_ranks(
     mechanism: Mechanism | nx.Graph,
     *,
     exact: bool | None = None,
     hinge_flat: bool = False,
-    pose: int | Literal[False] | None = None,
+    frame: int | None = None,
+    infinitesimal: bool = True,
     geometry: bool = True,
     dual: SheetMechanism | None = None,
 ) -> MobilityAnswer:
@@ -160,9 +168,11 @@ def mobility(
         Find the exact generic rank; by default unless the mechanism is too large.
     hinge_flat : bool, optional
         Make hinges of the flat (F) edges of a crease pattern too.
-    pose : int, optional
+    frame : int, optional
         The frame of a FOLD file that all numbers are those of; by default the pattern as it was read, or if that
-        has no coordinates, the first frame that has. False: no degrees of freedom at the configuration.
+        has no coordinates, the first frame that has.
+    infinitesimal : bool, optional
+        Find the infinitesimal degrees of freedom at the coordinates; by default where there are any.
     geometry : bool, optional
         Give loops round holes and cuts of a crease pattern the centre where their axes meet or are parallel.
     dual : SheetMechanism, optional
@@ -171,22 +181,24 @@ def mobility(
     Raises
     ------
     UnsolvableError
-        If a pose is demanded and the sheet has no coordinates there.
+        If a frame is demanded and the sheet has no coordinates there.
     FileError, InvariantError
         If there is no such frame, or the mechanism breaks an invariant.
 
     Examples
     --------
-    >>> answer = mobility(nx.cycle_graph(4))
+    >>> answer = counts_and_ranks(nx.cycle_graph(4))
     >>> answer.mobility, answer.exact.mobility, answer.equations["spherical_system"].why
     (1, 1, 'Eq. 3: every loop has a centre')
     """
     demanded = bool(exact)
     if isinstance(mechanism, Sheet):
-        drawn = sheet_in_frame(mechanism, None if pose is False else pose)
+        drawn = sheet_in_frame(mechanism, frame)
         dual = dual or mechanism_of_sheet(drawn, hinge_flat=hinge_flat, geometry=geometry)
-        answer = _of_sheet(drawn, dual, exact, pose, hinged=(hinge_flat, geometry))
-        others = mechanism.frames.others if mechanism.frames is not None and not pose else 0
+        answer = _of_sheet(drawn, dual, exact, frame, hinged=(hinge_flat, geometry))
+        if infinitesimal:
+            answer = with_infinitesimal(answer, drawn, dual, demanded=frame is not None)
+        others = mechanism.frames.others if mechanism.frames is not None and not frame else 0
         more = (f"not read: {numbered(others, 'more frame')} of the file (--at FRAME)",) if others else ()
         return answer.with_notes((), more)
     if isinstance(mechanism, PolyhedronModel):
@@ -194,30 +206,29 @@ def mobility(
         if exact is not False:
             answer = with_exact(answer, mechanism, demanded=demanded)
         answer = answer.with_notes(warnings=notes_on_centres(mechanism))
-        return answer if pose is False else model_with_pose(answer, mechanism)
+        return model_with_infinitesimal(answer, mechanism) if infinitesimal else answer
     if isinstance(mechanism, JointedLinkage):
         answer = mobility_of_jointed(mechanism)
         if demanded:
             why = "revolute joints that replace others share points and directions, generic ones do not"
             answer = answer.with_notes(warnings=[f"no exact rank: {why}"])
-        return replace(answer, pose=None) if pose is False else answer
+        return answer if infinitesimal else replace(answer, infinitesimal=None)
     sc = _counted_graph(mechanism)
     answer = MobilityAnswer.of(mobility_report(sc))
     if isinstance(mechanism, HingedSolids):
         answer = answer.with_notes(warnings=_centres_by_axes(graph_of(mechanism), sc))
-    if isinstance(mechanism, HingedSolids):
         answer = answer.with_notes(warnings=mechanism.notes)
     if sc.centres_assumed:
         answer = replace(answer, warnings=(CENTRES_ASSUMED, *answer.warnings))
-    if pose is not None and pose is not False:
+    if frame is not None and infinitesimal:
         answer = answer.with_notes(warnings=["no degrees of freedom at a configuration: a graph has no coordinates"])
     if exact is not False:
         answer = with_exact(answer, sc, demanded=demanded)
-    if pose is not False and isinstance(mechanism, SurfaceLinkage):
+    if infinitesimal and isinstance(mechanism, SurfaceLinkage):
         return _conformed(answer, mechanism)
-    if pose is not False and isinstance(mechanism, HingedSolids):
-        here = pose_mobility_of_axes(mechanism.chain, mechanism.axes)
-        return replace(answer, pose=here).with_notes(warnings=notes_of_pose(here))
+    if infinitesimal and isinstance(mechanism, HingedSolids):
+        here = infinitesimal_mobility_of_axes(mechanism.chain, mechanism.axes)
+        return replace(answer, infinitesimal=here).with_notes(warnings=notes_on_singular_values(here))
     return answer
 
 
@@ -260,8 +271,8 @@ def _conformed(answer: MobilityAnswer, linkage: SurfaceLinkage) -> MobilityAnswe
     surface = linkage.surface or (Cylinder(1.0) if cylinder else _ANY_CONE)
     lines = zip(*(part.tolist() for part in surface.axes(linkage.places())), strict=True)
     axes = dict(zip(linkage.chain.joints, lines, strict=True))
-    pose = replace(pose_mobility_of_axes(linkage.chain, axes, precision_of_steps(linkage)), flat=False)
-    return replace(answer, pose=pose).with_notes(warnings=notes_of_pose(pose))
+    found = replace(infinitesimal_mobility_of_axes(linkage.chain, axes, precision_of_steps(linkage)), flat=False)
+    return replace(answer, infinitesimal=found).with_notes(warnings=notes_on_singular_values(found))
 
 
 def precision_of_steps(linkage: SurfaceLinkage) -> Precision:
@@ -274,12 +285,7 @@ def precision_of_steps(linkage: SurfaceLinkage) -> Precision:
 
 
 def _of_sheet(
-    drawn: Sheet,
-    dual: SheetMechanism,
-    exact: bool | None,
-    pose: int | Literal[False] | None,
-    *,
-    hinged: tuple[bool, bool],
+    drawn: Sheet, dual: SheetMechanism, exact: bool | None, frame: int | None, *, hinged: tuple[bool, bool]
 ) -> MobilityAnswer:
     """Answer for a crease pattern; where flat edges matter, say what it is the other way round."""
     hinge_flat, geometry = hinged
@@ -287,8 +293,8 @@ def _of_sheet(
     answer = replace(answer, counts={**answer.counts, "interior_vertices": dual.interior_vertices})
     answer = replace(answer, reading=drawn.reading)
     notes = []
-    if pose:
-        notes.append(f"all numbers are those of frame {pose}")
+    if frame:
+        notes.append(f"all numbers are those of frame {frame}")
     if flaps := answer.counts["flaps"]:
         notes.append(f"{numbered(flaps, 'flap')} (panels with one hinge): 1 degree of freedom each")
     if "F" in drawn.assignments:
@@ -300,17 +306,15 @@ def _of_sheet(
     answer = answer.with_notes(dual.repairs, (*dual.warnings, *notes))
     if exact is not False:
         answer = with_exact(answer, dual.sc, demanded=bool(exact))
-    if pose is False:
-        return answer
-    return with_pose(answer, drawn, dual, demanded=pose is not None)
+    return answer
 
 
-def sheet_in_frame(sheet: Sheet, pose: int | None) -> Sheet:
+def sheet_in_frame(sheet: Sheet, frame: int | None) -> Sheet:
     """Return the sheet of a frame, or without one the first that has coordinates."""
     if sheet.frames is None:
-        if pose:
+        if frame:
             raise InvariantError("frames", "has no frames", "a .fold file")
         return sheet
-    if pose is not None:
-        return sheet.frames.frame(pose)
+    if frame is not None:
+        return sheet.frames.frame(frame)
     return sheet.frames.first_placed()

@@ -14,7 +14,7 @@ from graphs.mechanism.precision import stated
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet
 from graphs.rank.exact import independent_cycles, signed_loops
-from graphs.rank.pose import closure_at_pose, pose_mobility
+from graphs.rank.infinitesimal import closure_at_configuration, infinitesimal_mobility
 from graphs.rank.singular_values import spectrum
 
 
@@ -39,7 +39,7 @@ def folded_mesh(rows, columns, seed=None):
 def test_folded_meshes_move(size):
     rows, columns = size
     sheet = folded_mesh(*size)
-    found = pose_mobility(sheet)
+    found = infinitesimal_mobility(sheet)
     sc = mechanism_of_sheet(sheet).sc
     count = loop_form(len(sc.joints), len(sc.centred_loops), 0)
     assert found.dof == 1
@@ -51,8 +51,8 @@ def test_folded_meshes_move(size):
 
 def test_a_mesh_with_moved_vertices_does_not_move():
     noisy = folded_mesh(5, 5, seed=1)
-    assert pose_mobility(stated(noisy, 0.0)).dof == 0
-    found = pose_mobility(noisy)  # its panels are off their planes, all alike: within that it moves
+    assert infinitesimal_mobility(stated(noisy, 0.0)).dof == 0
+    found = infinitesimal_mobility(noisy)  # its panels are off their planes, all alike: within that it moves
     assert (found.dof, found.precision.source) == (1, "estimated")
     assert 1e-4 < found.precision.size < 1e-3
 
@@ -72,14 +72,14 @@ def test_where_no_gap_tells():
 
 def test_rank_agrees_with_numpy():
     sheet = folded_mesh(4, 4)
-    matrix = closure_at_pose(sheet, mechanism_of_sheet(sheet)).toarray()
+    matrix = closure_at_configuration(sheet, mechanism_of_sheet(sheet)).toarray()
     assert spectrum(matrix).rank == np.linalg.matrix_rank(matrix, tol=1e-9)
 
 
 def test_all_in_one_plane_is_said():
     flat = Sheet(5, (), "", ((0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1)),
                  ((0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)))  # fmt: skip
-    found = pose_mobility(flat)
+    found = infinitesimal_mobility(flat)
     assert found.flat
     assert found.dof == 2
 
@@ -94,24 +94,24 @@ def test_a_sarrus_linkage_moves():
     sheet = Sheet(12, (), "", tuple(faces), tuple(places))
     sc = mechanism_of_sheet(sheet).sc
     assert (len(sc.joints), sc.spatial_loops) == (6, 1)
-    assert pose_mobility(sheet).dof == 1
+    assert infinitesimal_mobility(sheet).dof == 1
 
 
 def test_odd_sheets():
     with pytest.raises(UnsolvableError, match="require coordinates"):
-        pose_mobility(Sheet(3, (), "", ((0, 1, 2),)))
-    assert pose_mobility(Sheet(3, (), "", ((0, 1, 2),), ((0, 0), (1, 0), (0, 1)))).dof == 0
-    assert pose_mobility(Sheet(0, (), "", (), ())).dof == 0
+        infinitesimal_mobility(Sheet(3, (), "", ((0, 1, 2),)))
+    assert infinitesimal_mobility(Sheet(3, (), "", ((0, 1, 2),), ((0, 0), (1, 0), (0, 1)))).dof == 0
+    assert infinitesimal_mobility(Sheet(0, (), "", (), ())).dof == 0
     twice = Sheet(4, (), "", ((0, 1, 2), (1, 0, 3)), ((0, 0, 0), (0, 0, 0), (1, 0, 0), (0, 1, 0)))
     with pytest.raises(InvariantError, match="has no length"):
-        pose_mobility(twice)
+        infinitesimal_mobility(twice)
 
 
 def test_scale_and_place_do_not_matter():
     sheet = folded_mesh(4, 5)
     spot = 1e5 * np.asarray(sheet.coordinates) + np.array([3e6, -2e6, 1e6])
     moved = Sheet(sheet.vertices, (), "", sheet.faces, tuple(map(tuple, spot.tolist())))
-    assert pose_mobility(moved).dof == pose_mobility(sheet).dof == 1
+    assert infinitesimal_mobility(moved).dof == infinitesimal_mobility(sheet).dof == 1
 
 
 DIFFERENT = {
@@ -155,7 +155,7 @@ def test_crease_patterns_as_they_lie(fold_folder, most, least):
         assert sheet.coordinates is not None
         if row["name"] in DIFFERENT:
             continue
-        found, expected = pose_mobility(sheet), int(row["DOF_rank"])
+        found, expected = infinitesimal_mobility(sheet), int(row["DOF_rank"])
         if row["name"] in ROUNDED:
             assert found.dof == ROUNDED[row["name"]]
             assert found.dof is not None or found.spectrum.undecided
@@ -172,7 +172,7 @@ def test_crease_patterns_as_they_lie(fold_folder, most, least):
 
 def test_kresling_rings_are_as_stiff_as_they_should_be(fold_folder):
     for name, dof in [("ev_kresling_n6_m1_open.fold", 6), ("ev_kresling_n6_m1_closed.fold", 0)]:
-        found = pose_mobility(read(fold_folder / name))
+        found = infinitesimal_mobility(read(fold_folder / name))
         assert found.dof == dof
 
 

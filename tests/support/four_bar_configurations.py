@@ -12,13 +12,13 @@ from graphs.errors import InvariantError
 from graphs.geometry import across, rotated, sectors, unit
 from graphs.mechanism.surfaces import checked_cone_angle, joint_axes
 from graphs.types import Floats
-from synth.linkages.conformed.pose import dihedral_angles
+from synth.linkages.conformed.dihedrals import dihedral_angles
 from synth.linkages.fourbar.position import output_spherical
 from synth.linkages.surfaces.circuit import azimuths, link_angles, wrapped
 
 
 @dataclass(frozen=True, slots=True)
-class PoseCheck:
+class ConfigurationCheck:
     """How well loops rebuilt in space are what they should be; all in radians.
 
     Attributes
@@ -40,17 +40,19 @@ def measured_dihedral_angles(axes: npt.ArrayLike) -> Floats:
     return np.asarray(np.arctan2((np.cross(u, v) * unit(e)).sum(axis=-1), (u * v).sum(axis=-1)))
 
 
-def check_pose(angles: npt.ArrayLike, steps: npt.ArrayLike, cone_angle: npt.ArrayLike) -> PoseCheck:
+def check_configuration(angles: npt.ArrayLike, steps: npt.ArrayLike, cone_angle: npt.ArrayLike) -> ConfigurationCheck:
     """Build mapped loops in space and measure them."""
     axes = joint_axes(azimuths(steps), cone_angle)
     measured = sectors(axes)
     lam = np.asarray(cone_angle, dtype=float)[..., np.newaxis]
     tilt = np.arctan2(-axes[..., 1], np.hypot(axes[..., 0], axes[..., 2]))
-    return PoseCheck(np.abs(measured - np.asarray(angles, dtype=float)).max(axis=-1), np.abs(tilt - lam).max(axis=-1))
+    return ConfigurationCheck(
+        np.abs(measured - np.asarray(angles, dtype=float)).max(axis=-1), np.abs(tilt - lam).max(axis=-1)
+    )
 
 
 @dataclass(frozen=True, slots=True)
-class FourBarPoses:
+class FourBarConfigurations:
     """Poses of a conical four-bar about its conformed one; nan where it does not reach.
 
     Attributes
@@ -73,7 +75,9 @@ class FourBarPoses:
     residual: Floats
 
 
-def poses_from_conformed(steps: npt.ArrayLike, cone_angle: float, turns: npt.ArrayLike) -> FourBarPoses:
+def configurations_from_conformed(
+    steps: npt.ArrayLike, cone_angle: float, turns: npt.ArrayLike
+) -> FourBarConfigurations:
     """Turn the input of a conical four-bar from its conformed pose (Hyatt et al. 2020, Eqs. 15 to 24).
 
     Eqs. 22 and 23 take gamma_0 and beta_0 the other way round; in one loop direction C = R_y(-gamma_0) O
@@ -103,4 +107,4 @@ def poses_from_conformed(steps: npt.ArrayLike, cone_angle: float, turns: npt.Arr
     axes = np.stack(np.broadcast_arrays(o, a, b, c), axis=-2)
     axes = np.where(np.isnan(psi)[..., np.newaxis, np.newaxis], np.nan, axes)
     residual = np.linalg.norm(b - b_by_output, axis=-1)
-    return FourBarPoses(theta, psi, xi, (theta0, psi0, xi0), axes, residual)
+    return FourBarConfigurations(theta, psi, xi, (theta0, psi0, xi0), axes, residual)

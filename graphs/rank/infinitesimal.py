@@ -1,4 +1,4 @@
-"""Mobility at a pose: infinitesimal freedoms where the coordinates are, with the evidence.
+"""Mobility at a configuration: infinitesimal freedoms where the coordinates are, with the evidence.
 
 Special geometry may lower the rank of the closure equations at the axes as they lie: what is gained over the
 generic mobility is the overconstraint h (Wiener 2016, Eq. 8). A vertex whose creases lie in one plane has more
@@ -49,7 +49,7 @@ paper. What is farther off is a panel that is not planar, and its distance no er
 
 
 @dataclass(frozen=True, slots=True)
-class PoseMobility:
+class InfinitesimalMobility:
     """Infinitesimal degrees of freedom at a configuration.
 
     Attributes
@@ -90,7 +90,9 @@ class PoseMobility:
         }
 
 
-def pose_mobility(sheet: Sheet, mechanism: SheetMechanism | None = None, *, hinge_flat: bool = False) -> PoseMobility:
+def infinitesimal_mobility(
+    sheet: Sheet, mechanism: SheetMechanism | None = None, *, hinge_flat: bool = False
+) -> InfinitesimalMobility:
     """Return the infinitesimal degrees of freedom of a crease pattern at its coordinates.
 
     Parameters
@@ -110,13 +112,13 @@ def pose_mobility(sheet: Sheet, mechanism: SheetMechanism | None = None, *, hing
     Examples
     --------
     >>> corners = ((0, 0), (1, 0), (0, 1), (-1, 0), (0, -1))
-    >>> flat = pose_mobility(Sheet(5, (), "", ((0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1)), corners))
+    >>> flat = infinitesimal_mobility(Sheet(5, (), "", ((0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1)), corners))
     >>> flat.dof, flat.self_stresses, flat.flat  # one freedom more than folded
     (2, 1, True)
     """
     mechanism = mechanism or mechanism_of_sheet(sheet, hinge_flat=hinge_flat)
     loops = _loops_of(mechanism)
-    matrix = closure_at_pose(sheet, mechanism, loops)
+    matrix = closure_at_configuration(sheet, mechanism, loops)
     assert sheet.coordinates is not None
     points = _centred(sheet.coordinates)
     precision = precision_of_sheet(sheet)
@@ -129,9 +131,9 @@ def pose_mobility(sheet: Sheet, mechanism: SheetMechanism | None = None, *, hing
     return replace(found, flat_loops=_flat_loops(points, mechanism, loops, precision))
 
 
-def pose_mobility_of_axes(
+def infinitesimal_mobility_of_axes(
     sc: SCGraph, axes: Mapping[JointId, tuple[Sequence[float], Sequence[float]]], precision: Precision | None = None
-) -> PoseMobility:
+) -> InfinitesimalMobility:
     """Return the infinitesimal degrees of freedom of a linkage by its joint axes.
 
     Every loop closes with six equations here, so centres need not be exact.
@@ -148,7 +150,7 @@ def pose_mobility_of_axes(
     --------
     >>> planar = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)])
     >>> places = [(0, 0, 0), (3, 0, 0), (4, 2, 0), (0, 1, 0)]
-    >>> pose_mobility_of_axes(planar, {i: (place, (0, 0, 1)) for i, place in enumerate(places)}).dof
+    >>> infinitesimal_mobility_of_axes(planar, {i: (place, (0, 0, 1)) for i, place in enumerate(places)}).dof
     1
     """
     points = np.array([axes[joint][0] for joint in sc.joints], dtype=float).reshape(-1, 3)
@@ -168,7 +170,7 @@ def pose_mobility_of_axes(
     return _mobility(evidence, len(sc.joints), 6 * sc.independent_loops, points, precision)
 
 
-def pose_mobility_of_model(model: PolyhedronModel) -> PoseMobility:
+def infinitesimal_mobility_of_model(model: PolyhedronModel) -> InfinitesimalMobility:
     """Return the infinitesimal degrees of freedom of a polyhedron model at its coordinates.
 
     Links of four vertices or more get a virtual apex, since their vertices may be coplanar.
@@ -186,7 +188,7 @@ def pose_mobility_of_model(model: PolyhedronModel) -> PoseMobility:
     Examples
     --------
     >>> corners = {0: (0, 0, 0), 1: (1, 0, 0), 2: (1, 1, 0), 3: (0, 1, 0)}  # a square shears, and folds
-    >>> pose_mobility_of_model(PolyhedronModel(4, [(0, 1), (1, 2), (2, 3), (3, 0)], coordinates=corners)).dof
+    >>> infinitesimal_mobility_of_model(PolyhedronModel(4, [(0, 1), (1, 2), (2, 3), (3, 0)], coordinates=corners)).dof
     2
     """
     if not model.coordinates:
@@ -221,9 +223,11 @@ def _spectrum(matrix: scipy.sparse.csr_matrix, places: Floats, error: Floats, ne
     return sparse_spectrum(matrix, places, error, nearly)
 
 
-def _mobility(evidence: Spectrum, unknowns: int, equations: int, points: Floats, precision: Precision) -> PoseMobility:
+def _mobility(
+    evidence: Spectrum, unknowns: int, equations: int, points: Floats, precision: Precision
+) -> InfinitesimalMobility:
     rank = evidence.rank
-    return PoseMobility(
+    return InfinitesimalMobility(
         None if rank is None else unknowns - rank,
         None if rank is None else equations - rank,
         evidence,
@@ -278,7 +282,7 @@ def _flat_loops(points: Floats, mechanism: SheetMechanism, loops: SignedLoops, p
     return flat
 
 
-def closure_at_pose(
+def closure_at_configuration(
     sheet: Sheet, mechanism: SheetMechanism, loops: SignedLoops | None = None
 ) -> scipy.sparse.csr_matrix:
     """Return the closure equations of a sheet's mechanism at its coordinates: sparse float[rows, joints].

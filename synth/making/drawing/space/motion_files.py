@@ -1,6 +1,6 @@
-"""Motions as files: FOLD with a frame for each pose, OBJ files, a strip of pictures, a GIF that moves.
+"""Motions as files: FOLD with a frame for each frame, OBJ files, a strip of pictures, a GIF that moves.
 
-All poses are drawn from one place and at one scale.
+All frames are drawn from one place and at one scale.
 """
 
 from collections.abc import Iterator, Sequence
@@ -14,7 +14,7 @@ import numpy as np
 from graphs.errors import UnsolvableError
 from graphs.files.atomic import check_place
 from graphs.files.outputs import check_writable, listed, write_as
-from graphs.files.patterns.fold import fold_text_of_poses
+from graphs.files.patterns.fold import fold_text_of_frames
 from graphs.files.patterns.obj import obj_text
 from graphs.joints.linkage import JointedLinkage
 from graphs.mechanism.sheet import Sheet
@@ -38,20 +38,20 @@ from synth.making.drawing.space.panels import (
 from synth.making.drawing.space.solids import faces_of_shapes
 
 _IN_STRIP, _IN_ROW = 12, 4
-"""Poses of a strip, and in one row of it, at most."""
+"""MotionFrames of a strip, and in one row of it, at most."""
 _SIZE, _MOVING = 120.0, 288.0
-"""Sides of the square of a pose in a strip, and of a moving picture, points."""
+"""Sides of the square of a frame in a strip, and of a moving picture, points."""
 _DOTS = 100
 _MILLISECONDS, _PAUSE = 80, 1000
 _COLOURS = 128
 
 
-def pose_scenes(
+def frame_scenes(
     panels: Sheet | SpatialPanels, places: Floats, side: float = _MOVING, air: float = 8.0
 ) -> Iterator[Scene]:
-    """Yield a square picture of each pose, all from one place and at one scale.
+    """Yield a square picture of each frame, all from one place and at one scale.
 
-    `places`, float[F, vertices, 3], are the vertices in each pose, in any unit of length. `side` is that of the
+    `places`, float[F, vertices, 3], are the vertices in each frame, in any unit of length. `side` is that of the
     square, `air` is left free on each side, in points.
     """
     view = view_of_motion(places[0])
@@ -67,24 +67,24 @@ def pose_scenes(
         yield page_of(frame, [Layer("panels", tuple(shapes))])
 
 
-def strip_of_poses(
+def strip_of_frames(
     panels: Sheet | SpatialPanels, places: Floats, *, names: Sequence[str] = (), said: Sequence[str] = ()
 ) -> Scene:
-    """Return a strip of poses: at most twelve, equally far from each other, numbered.
+    """Return a strip of frames: at most twelve, equally far from each other, numbered.
 
     Parameters
     ----------
     panels : Sheet or SpatialPanels
     places : float[F, vertices, 3]
     names : sequence of str, optional
-        What is written beside each pose, in place of its number.
+        What is written beside each frame, in place of its number.
     said : sequence of str, optional
         Lines below the strip, after the one that explains it.
 
     Examples
     --------
     >>> square = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0.0]])
-    >>> strip = strip_of_poses(Sheet(4, (), "", ((0, 1, 2, 3),)), np.stack([square, square / 2]))
+    >>> strip = strip_of_frames(Sheet(4, (), "", ((0, 1, 2, 3),)), np.stack([square, square / 2]))
     >>> [label.text for label in strip.labels()]
     ['0', '1', 'frames by number, seen from one place; front grey, back blue']
     """
@@ -92,7 +92,7 @@ def strip_of_poses(
     columns = min(len(chosen), _IN_ROW)
     layers: list[Layer] = []
     numbers: list[Label] = []
-    scenes = pose_scenes(panels, places[chosen], _SIZE)
+    scenes = frame_scenes(panels, places[chosen], _SIZE)
     for place, (number, scene) in enumerate(zip(chosen.tolist(), scenes, strict=True)):
         right, down = place % columns * _SIZE, place // columns * _SIZE
         layers += [moved(layer, right, down) for layer in scene.layers if layer.shapes]
@@ -105,10 +105,10 @@ def strip_of_poses(
     return page_of(frame, [*layers, Layer("numbers", tuple(numbers))], [first, *said])
 
 
-class Poses(NamedTuple):
-    """What a file of a motion holds: panels or solids, and float[F, vertices, 3], their vertices in each pose.
+class MotionFrames(NamedTuple):
+    """What a file of a motion holds: panels or solids, and float[F, vertices, 3], their vertices in each frame.
 
-    The sheets, one for each pose, are for FOLD and OBJ.
+    The sheets, one for each frame, are for FOLD and OBJ.
     """
 
     panels: Sheet | SpatialPanels
@@ -116,12 +116,12 @@ class Poses(NamedTuple):
     sheets: Sequence[Sheet] = ()
 
 
-def gif_bytes(poses: Poses) -> bytes:
+def gif_bytes(frames: MotionFrames) -> bytes:
     """Return a moving picture: there and back, again and again."""
     from PIL import Image
 
-    frames = [pixels(scene, dots=_DOTS) for scene in pose_scenes(poses.panels, poses.places)]
-    forth = [Image.fromarray(frame).quantize(_COLOURS) for frame in frames]
+    pictures = (pixels(scene, dots=_DOTS) for scene in frame_scenes(frames.panels, frames.places))
+    forth = [Image.fromarray(picture).quantize(_COLOURS) for picture in pictures]
     images = [*forth, *forth[-2:0:-1]]
     durations = [_MILLISECONDS] * len(images)
     durations[0] = durations[len(forth) - 1] = _PAUSE
@@ -130,30 +130,30 @@ def gif_bytes(poses: Poses) -> bytes:
     return stream.getvalue()
 
 
-def fold_bytes(poses: Poses) -> bytes:
-    """Return poses as FOLD, a frame each."""
-    assert isinstance(poses.panels, Sheet)
-    return fold_text_of_poses(poses.panels, poses.sheets).encode("utf-8")
+def fold_bytes(frames: MotionFrames) -> bytes:
+    """Return frames as FOLD, a frame each."""
+    assert isinstance(frames.panels, Sheet)
+    return fold_text_of_frames(frames.panels, frames.sheets).encode("utf-8")
 
 
-def obj_bytes(poses: Poses) -> bytes:
-    """Return the first pose as OBJ."""
-    return obj_text(poses.sheets[0]).encode("utf-8")
+def obj_bytes(frames: MotionFrames) -> bytes:
+    """Return the first frame as OBJ."""
+    return obj_text(frames.sheets[0]).encode("utf-8")
 
 
-def strip_pages(poses: Poses) -> Pages:
-    """Return poses as a strip, on one page."""
-    return Pages([strip_of_poses(poses.panels, poses.places)])
+def strip_pages(frames: MotionFrames) -> Pages:
+    """Return frames as a strip, on one page."""
+    return Pages([strip_of_frames(frames.panels, frames.places)])
 
 
-def save_moving_poses(panels: Sheet | SpatialPanels, places: Floats, path: str | Path, *, force: bool = False) -> None:
-    """Draw poses: as a GIF that moves there and back, or as a strip.
+def save_moving_frames(panels: Sheet | SpatialPanels, places: Floats, path: str | Path, *, force: bool = False) -> None:
+    """Draw frames: as a GIF that moves there and back, or as a strip.
 
     Parameters
     ----------
     panels : Sheet or SpatialPanels
     places : float[F, vertices, 3]
-        Vertices in each pose.
+        Vertices in each frame.
     path : str or Path
         Ends in .gif, .png or .svg.
     force : bool, optional
@@ -172,11 +172,11 @@ def save_moving_poses(panels: Sheet | SpatialPanels, places: Floats, path: str |
     >>> square = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0.0]])
     >>> with TemporaryDirectory() as folder:
     ...     path = Path(folder, "square.gif")
-    ...     save_moving_poses(Sheet(4, (), "", ((0, 1, 2, 3),)), np.stack([square, square / 2]), path)
+    ...     save_moving_frames(Sheet(4, (), "", ((0, 1, 2, 3),)), np.stack([square, square / 2]), path)
     ...     print(path.read_bytes()[:6])
     b'GIF89a'
     """
-    write_as(Poses(panels, places), path, EXPORTERS["pictures of motions"], force=force)
+    write_as(MotionFrames(panels, places), path, EXPORTERS["pictures of motions"], force=force)
 
 
 def check_motion_file(path: str | Path, *, force: bool = False) -> None:
@@ -194,8 +194,8 @@ def write_motion(motion: Motion, path: str | Path, *, force: bool = False) -> li
     motion : Motion
         A motion of a sheet, or of solids hinged at edges, which can only be drawn.
     path : str or Path
-        ``.fold``: one file with a frame per pose. ``.obj``: one file per pose, numbered from 000. ``.gif``: a
-        moving picture. ``.png``, ``.svg``: a strip of at most twelve poses.
+        ``.fold``: one file with a frame per frame. ``.obj``: one file per frame, numbered from 000. ``.gif``: a
+        moving picture. ``.png``, ``.svg``: a strip of at most twelve frames.
     force : bool, optional
         Overwrite existing files.
 
@@ -213,7 +213,7 @@ def write_motion(motion: Motion, path: str | Path, *, force: bool = False) -> li
 
     Examples
     --------
-    A vertex of four creases, its poses as frames of one file:
+    A vertex of four creases, its frames as frames of one file:
 
     >>> from tempfile import TemporaryDirectory
     >>> from graphs.mechanism.sheet import Sheet
@@ -232,25 +232,25 @@ def write_motion(motion: Motion, path: str | Path, *, force: bool = False) -> li
     is_picture = path.suffix.lower() in EXPORTERS["pictures of motions"]
     if isinstance(at, SheetConfiguration):
         sheets = () if is_picture else motion.sheets()
-        poses = Poses(at.sheet, motion.places, sheets)
+        frames = MotionFrames(at.sheet, motion.places, sheets)
     elif is_picture and isinstance(at.given, HingedSolids | JointedLinkage):
         if isinstance(at.given, HingedSolids) and at.given.shapes:
             shown = faces_of_shapes(at.given, motion.linkage)
-            poses = Poses(shown.panels(motion.linkage), shown.places(motion.linkage, motion.path.angles))
+            frames = MotionFrames(shown.panels(motion.linkage), shown.places(motion.linkage, motion.path.angles))
         else:
-            poses = Poses(bodies_of(motion.linkage)[0], places_of_hinges(motion.linkage, motion.path.angles))
+            frames = MotionFrames(bodies_of(motion.linkage)[0], places_of_hinges(motion.linkage, motion.path.angles))
     else:
         are_solids = isinstance(at.given, HingedSolids | JointedLinkage)
         solids = f"solids are drawn as {listed(EXPORTERS['pictures of motions'])}; " if are_solids else ""
         raise UnsolvableError(f"there are no panels to write: {solids}--json gives the joint angles of each frame")
     if path.suffix.lower() != ".obj":
-        write_as(poses, path, EXPORTERS["motions"], force=force)
+        write_as(frames, path, EXPORTERS["motions"], force=force)
         return [path]
-    series = [_of_series(path, number) for number in range(len(poses.sheets))]
+    series = [_of_series(path, number) for number in range(len(frames.sheets))]
     for place in series:
         check_place(place, force=force)
-    for place, sheet in zip(series, poses.sheets, strict=True):
-        write_as(poses._replace(sheets=[sheet]), place, EXPORTERS["motions"], force=force)
+    for place, sheet in zip(series, frames.sheets, strict=True):
+        write_as(frames._replace(sheets=[sheet]), place, EXPORTERS["motions"], force=force)
     return series
 
 

@@ -22,7 +22,7 @@ from graphs.types import Floats
 from synth.analysis.folding.panel_collisions import Collision, shapes_of_panels
 from synth.analysis.motion.closure import ClosureEquations
 from synth.analysis.motion.derivatives import BodyPoses, BodyTree, spatial
-from synth.analysis.motion.linkage import PosedLinkage
+from synth.analysis.motion.linkage import Linkage
 from synth.synthesis.designing.dimensions import DesignedLinkage, Dimensions
 
 
@@ -124,7 +124,7 @@ class DesignFrame:
             self._equations[copies] = ClosureEquations(linkage)
         return self._equations[copies].with_axes(linkage)
 
-    def _copied(self, design: DesignedLinkage, copies: int) -> PosedLinkage:
+    def _copied(self, design: DesignedLinkage, copies: int) -> Linkage:
         """Return a design several times over, as one linkage whose joints stand one after the other."""
         linkage = design.linkage
         if self.family.sheet is not None and any(loop.centre is Centre.INFINITE for loop in linkage.loops):
@@ -148,7 +148,7 @@ class DesignFrame:
         def places(angles: Floats) -> Floats:
             every = np.zeros((len(angles), sheet.vertices, 3))
             for row, one in enumerate(angles):
-                every[row, self.placed] = PosedDesign(self, design, one).places(points).values.reshape(-1, 3)
+                every[row, self.placed] = DesignConfiguration(self, design, one).places(points).values.reshape(-1, 3)
             return every
 
         here = places(design.linkage.angles[None])[0]
@@ -183,7 +183,7 @@ class DesignFrame:
         return [DesignPoint(vertex=int(vertex)) for vertex in self.placed]
 
 
-class PosedDesign:
+class DesignConfiguration:
     """A design at joint angles float[J], radians, closed or not."""
 
     def __init__(self, frame: DesignFrame, design: DesignedLinkage, angles: Floats) -> None:
@@ -195,14 +195,14 @@ class PosedDesign:
         return self.bodies.derivatives(self.design.dependence)
 
     def rotation(self, row: int) -> Derived:
-        """Return the nine entries of the rotation of a link from the pose, row after row."""
+        """Return the nine entries of the rotation of a link from the file's configuration, row after row."""
         matrix = self.bodies.rotations[row]
         by = -crossing(matrix.T).swapaxes(0, 1).reshape(9, 3)  # a column m changes by w x m
         by_angles, by_numbers = (part[row, :3] for part in self._twists)
         return Derived(matrix.ravel(), by @ by_angles, by @ by_numbers)
 
     def direction(self, row: int, vector: Floats, by_numbers: Floats) -> Derived:
-        """Return where a vector of a link at the pose points, float[3]; its derivatives by numbers: float[3, n]."""
+        """Return where a vector of a link of the file points now, float[3]; its derivatives by numbers: float[3, n]."""
         there = self.bodies.rotations[row] @ vector
         turn = -crossing(there)
         by, direct = (part[row, :3] for part in self._twists)
