@@ -19,7 +19,7 @@ def main() -> None:
     with TemporaryDirectory() as folder:
         (Path(folder) / "data").symlink_to(ROOT / "data")
         os.chdir(folder)
-        figures = {number: value_of(row)[0] for number, _, row in numbered() if not row.why}
+        figures = {number: value_of(row)[0] for number, _, row in numbered() if not (row.why or row.same)}
         os.chdir(ROOT)
     (ROOT / "docs" / "papers.md").write_text(page(figures), encoding="utf-8")
 

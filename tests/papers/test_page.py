@@ -27,7 +27,7 @@ def lines_of(text):
 
 def asked():
     for number, paper, row in ROWS:
-        if not row.why:
+        if not (row.why or row.same):
             marks = [pytest.mark.slow] if row.slow else []
             yield pytest.param(number, row, id=f"{number} {paper} {row.place}", marks=marks)
 
@@ -62,6 +62,17 @@ def test_the_page_is_made_of_the_rows():
 
     assert without_ours(PAGE) == without_ours(page(dict.fromkeys(range(1, len(ROWS) + 1), 0)))
     assert all(len(cells) == OURS + 2 for cells in lines_of(PAGE).values())
+
+
+def test_rows_shown_above_are_asked_there():
+    """They name a row of a paper that a test runs, and all items of the independent pass are here or there."""
+    numbers = {id(row): number for number, _, row in ROWS}
+    pointing = [(number, row) for number, _, row in ROWS if row.same]
+    assert len(pointing) > 10
+    for number, row in pointing:
+        assert not row.same.why
+        assert lines_of(PAGE)[number][3] == f"row {numbers[id(row.same)]}"
+        assert numbers[id(row.same)] < number
 
 
 def test_rows_cover_the_golden_values_and_the_misprints():

@@ -207,7 +207,11 @@ ROWS = [
     ),
     Row(
         "Fig. 10",
-        "curves of the loop sums, with their legends",
-        why="the legends are in the figure only; `synth cone map --angles 120,95,45,85 -o sums.svg` draws ours",
+        "where the curves of the loop sums of 120, 95, 45, 85 meet a multiple of 360 degrees: signs, k, lambda",
+        "synth cone map --angles 120,95,45,85 --json",
+        "[[one['signs'], one['k'], one['lambda_deg']] for one in answer['cones']]",
+        right=[[[1, 1, 1, 1], 1, 13.9983566781], [[1, -1, 1, -1], 0, 29.0444694333]],
+        golden="000/fig10a_cones",
+        remark="the legends of the curves are in the figure only; `synth cone map --angles 120,95,45,85 -o sums.svg` draws them",
     ),
 ]

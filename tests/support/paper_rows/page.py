@@ -7,7 +7,7 @@ from collections import Counter
 from collections.abc import Iterator
 from typing import Any
 
-from paper_rows import hyatt_2020, hyatt_2021, tipparthi_2011, wampler_2007, wiener_2016
+from paper_rows import hyatt_2020, hyatt_2021, independent_pass, tipparthi_2011, wampler_2007, wiener_2016
 from paper_rows.row import Row
 
 __all__ = ["PAPERS", "numbered", "page"]
@@ -18,6 +18,7 @@ PAPERS = {
     "Tipparthi and Larochelle 2011": tipparthi_2011.ROWS,
     "Wiener 2016": wiener_2016.ROWS,
     "Wampler, Larson, Erdman 2007": wampler_2007.ROWS,
+    "What an independent pass found": independent_pass.ROWS,
 }
 
 _HEAD = """# The five papers, figure by figure
@@ -46,11 +47,16 @@ def page(figures: dict[int, Any]) -> str:
         if paper != last:
             text += f"\n## {paper}\n\n| # | where | what | how it is asked | printed | ours | |\n|---|---|---|---|---|---|---|\n"
             last = paper
-        ours = "-" if row.why else shown(figures[number])
+        ours = "-" if row.why or row.same else shown(figures[number])
         text += (
             f"| {number} | {row.place} | {row.what} | {_asked(row)} | {_printed(row)} | {ours} | {_verdict(row)} |\n"
         )
     return text
+
+
+def _number(row: Row) -> int:
+    """Return the number of a row of a paper."""
+    return next(number for number, _, other in numbered() if other is row)
 
 
 def _summary() -> str:
@@ -60,6 +66,8 @@ def _summary() -> str:
 
 
 def _asked(row: Row) -> str:
+    if row.same:
+        return f"row {_number(row.same)}"
     if row.why:
         return "-"
     asked = [f"`{command}`" for command in (*row.first, row.ask)]

@@ -59,6 +59,8 @@ class Row:
         It takes a second or more.
     why : str
         Why it cannot be done; then nothing is asked.
+    same : Row
+        The row of a paper that shows it; then nothing is asked here, that row's own test does.
     """
 
     place: str
@@ -76,10 +78,13 @@ class Row:
     first: tuple[str, ...] = ()
     slow: bool = False
     why: str = ""
+    same: Row | None = None
 
     @property
     def status(self) -> str:
-        """Whether it is equal, holds, is a misprint, is not at hand, or cannot be done."""
+        """Whether it is equal, holds, is a misprint, is not at hand, cannot be done, or is shown by another row."""
+        if self.same:
+            return "shown above"
         if self.why:
             return "cannot be done"
         if self.misprint:

@@ -182,7 +182,12 @@ ROWS = [
     ),
     Row(
         "Figs. 3 to 6",
-        "moving axes and link lengths of the two dyads",
-        why="they are not printed; `synth dyads` computes them",
+        "link angles of the dyads of case studies 1 and 2, fixed to moving axis",
+        _DYADS,
+        "[(lambda d: min(d['link_angle_deg'], 180 - d['link_angle_deg']))(max(answer['dyads'], "
+        "key=lambda d: abs(np.dot(d['G'], g)))) for g in ([0.054261, -0.996977, 0.055603], [-0.349442, -0.144163, 0.925801])]",
+        second="[(lambda d: (lambda x: float(np.degrees(np.arccos(min(1, abs(x))))))(np.dot(d['G'], d['W'])))(max(answer['dyads'], "
+        "key=lambda d: abs(np.dot(d['G'], g)))) for g in ([0.054261, -0.996977, 0.055603], [-0.349442, -0.144163, 0.925801])]",
+        remark="not printed; axes reversed are the same axes, so angles up to 90 degrees",
     ),
 ]

@@ -90,7 +90,19 @@ ROWS = [
         golden="004/degenerate_fourbar",
         remark="proved; two freedoms to first order",
     ),
-    Row("Text before Eq. 3", "its complex dimension, 1", why="dimensions of complex components are not computed"),
+    Row(
+        "Text before Eq. 3",
+        "its complex dimension: M, which is the least dimension there; degrees of freedom to first order; "
+        "complex lines of their second-order condition, and real ones",
+        "synth mobility data/joints/stretched-four-bar.json --json",
+        "(lambda lines: [answer[0]['mobility'], answer[0]['pose']['dof'], len({complex(x) for x in lines}), "
+        "int(np.sum(lines.imag == 0))])(np.roots([1 + 1 / 1.3, 2 * 0.7 / 1.3, 0.7 + 0.49 / 1.3]))",
+        words="1",
+        right=[1, 2, 2, 0],
+        golden="004/degenerate_fourbar",
+        remark="the condition l1 x^2 + l2 y^2 + (l1 x + l2 y)^2 / l3 = 0 is not empty, so of 2 dimensions at most 1 is left, "
+        "and 3 equations in 4 angles leave at least 1: complex dimension 1, in two branches; computed in the expression, not by a command",
+    ),
     Row(
         "Eqs. 1, 2, text after Eq. 2",
         "two spherical four-bars with different centres: centres, M",
