@@ -144,8 +144,8 @@ def layers_of_stacked(
     core = core_of(stacked.image, signs, above) if explain and not orders else None
     fault = "" if orders else CONTRADICTION
     return LayersInSpace(
-        *_about(posed), stacked.image, 0.0, parts if orders else (), orders, fault, core, constraints, left,
-        posed=posed, stacked=stacked,
+        *_about(posed), stacked.image, 0.0, parts if orders else (), orders, fault, core,
+        _constraints=constraints, _reduced=left, posed=posed, stacked=stacked,
     )  # fmt: skip
 
 
