@@ -30,6 +30,7 @@ MAYBE_SMALL = re.compile(r"e-|\.0|" + "|".join(UNITS), re.IGNORECASE)
 """A file without any of these has no small constant: its tree is not walked."""
 
 EXEMPT = {
+    ("synth/analysis/layering/needed_precision.py", "COARSEST"): "coarsest precision that a refusal proposes",
     ("graphs/convert/hinges.py", "_SHORTEST"): "least divisor",
     ("graphs/convert/faces.py", "_OVERLAP"): "part of an area that is covered twice",
     ("graphs/convert/tracing.py", "TOLERANCES"): "welding distances that are tried in turn",

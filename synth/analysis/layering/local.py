@@ -8,7 +8,7 @@ complexity of flat origami (1996), for crimps. Theory: docs/theory/layer-orders.
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import degrees, pi
+from math import degrees, floor, log10, pi
 from typing import Any
 
 import numpy as np
@@ -66,6 +66,10 @@ class FlatVertex:
         """Whether every other sector adds up to 180 degrees, within the precision."""
         return len(self.creases) % 2 == 0 and self.off <= self.allowed
 
+    def allowed_by(self, points: Floats, length: float) -> float:
+        """Return what ends that are off by a length, each across its crease, leave open of the sums, in radians."""
+        return _allowed(points[list(self.ends)] - points[self.vertex], length)
+
     @property
     def difference(self) -> int:
         """Mountains less valleys."""
@@ -88,7 +92,10 @@ class FlatVertex:
         if len(self.creases) % 2:
             return f"{len(self.creases)} creases, an odd number"
         if not self.kawasaki:
-            return f"every other sector adds up to {degrees(pi + self.off):.6g} or {degrees(pi - self.off):.6g} degrees"
+            # so many decimals that the two sums differ, and show two digits of what is missing
+            decimals = max(3, 1 - floor(log10(degrees(self.off))))
+            more, less = (f"{degrees(pi + off):.{decimals}f}".rstrip("0").rstrip(".") for off in (self.off, -self.off))
+            return f"every other sector adds up to {more} or {less} degrees"
         if not self.maekawa:
             mountains, valleys = (
                 numbered(self.letters.count("M"), "mountain"),
@@ -171,7 +178,7 @@ def flat_vertices(sheet: Sheet, mechanism: SheetMechanism, points: Floats, preci
         ends, arms = [ends[place] for place in order], arms[order]
         angles = _sectors(arms) if len(ends) > 1 else np.array([2.0 * pi])
         off = abs(float(angles[::2].sum()) - pi) if len(ends) % 2 == 0 else pi
-        allowed = float((2.0 * near / np.linalg.norm(arms, axis=1)).sum())
+        allowed = _allowed(arms, near)
         met = [frozenset((vertex, end)) for end in ends]
         found.append(
             FlatVertex(
@@ -186,6 +193,17 @@ def flat_vertices(sheet: Sheet, mechanism: SheetMechanism, points: Floats, preci
             )
         )
     return found
+
+
+def _allowed(arms: Floats, length: float) -> float:
+    """Return by how much ends of arms, float[n, 2], that are off by a length turn them together, in radians."""
+    return float((2.0 * length / np.linalg.norm(arms, axis=1)).sum())
+
+
+def sums_off(points: Floats, vertices: Sequence[FlatVertex]) -> Floats:
+    """Return how far every other sector of each vertex is from 180 degrees at places float[V, 2], in radians."""
+    arms = (points[list(vertex.ends)] - points[vertex.vertex] for vertex in vertices)
+    return np.array([float(_sectors(one)[::2].sum()) - pi for one in arms])
 
 
 def closing_points(points: Floats, vertices: Sequence[FlatVertex]) -> Floats:

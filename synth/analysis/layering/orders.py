@@ -11,10 +11,10 @@ from typing import Any
 import numpy as np
 
 from graphs.convert.duality import SheetMechanism, mechanism_of_sheet, opened
-from graphs.errors import InvariantError, UnsolvableError, numbered
+from graphs.errors import InvariantError, NumericalError, UnsolvableError, numbered
 from graphs.geometry import signed_area
 from graphs.input_limits import check_work
-from graphs.mechanism.precision import Precision, extent_of, flat_places, keeping, precision_of_sheet
+from graphs.mechanism.precision import Precision, extent_of, flat_places, keeping, precision_of_sheet, stated
 from graphs.mechanism.sheet import Sheet, sides_of_face, with_all_edges
 from graphs.printing import Block, Printed, TableBlock
 from graphs.tolerances import Tolerances
@@ -26,12 +26,15 @@ from synth.analysis.layering.counting.problem import Counter, LayerProblem, solu
 from synth.analysis.layering.counting.propagation import counted
 from synth.analysis.layering.image import FoldedImage, folded, image_of
 from synth.analysis.layering.local import FlatVertex, closing_points, flat_vertices
+from synth.analysis.layering.needed_precision import COARSEST, NeededPrecision, needed_precision, rounded_up
 from synth.analysis.layering.reduction import ReducedLayers, reduced
 
 CONTRADICTION = "its layers contradict each other"
 """Why there is no layer order where the places of panels leave none."""
 _FEW = 12
 """Wishes of which the largest number that can be met is looked for."""
+_WIDER = 10.0
+"""Where the least precision closes the sums and the image has no consistent layers, one so much coarser is tried."""
 _LISTED = 12
 """Faults and components that are printed; data has all."""
 
@@ -162,6 +165,8 @@ class FlatFolding(Printed):
     core : LayerCore, optional
         Conditions on layers that contradict each other, none of which can go; None if there is an order, if the image
         does not close, or without `explain`.
+    needed : NeededPrecision, optional
+        A precision with which a pattern would fold flat whose sums of sectors or image do not close.
 
     Examples
     --------
@@ -182,6 +187,7 @@ class FlatFolding(Printed):
     orders: int
     fault: str
     core: LayerCore | None = None
+    needed: NeededPrecision | None = None
     _constraints: LayerConstraints | None = field(default=None)
     _reduced: ReducedLayers | None = field(default=None)
 
@@ -339,6 +345,7 @@ class FlatFolding(Printed):
             "fault": self.fault or None,
             "core": None if self.core is None else self.core.to_json(),
             "vertices": [vertex.to_json() for vertex in self.vertices],
+            "needed_precision": None if self.needed is None else self.needed.to_json(),
             "misfit": self.misfit,
             "moved": self.moved,
             "precision": self.precision.size,
@@ -356,7 +363,8 @@ class FlatFolding(Printed):
         """Return the lines and tables that are printed."""
         faults = self.local_faults
         if not self.foldable:
-            blocks: list[Block] = [f"Does not fold flat: {self.fault}."]
+            told = "" if self.needed is None else f"; {self.needed}"
+            blocks: list[Block] = [f"Does not fold flat: {self.fault}{told}."]
             if self.core is not None:
                 blocks += core_lines(self.core, _LISTED)
             if faults:
@@ -518,7 +526,12 @@ def _check_pairs(pairs: int) -> None:
 
 
 def flat_folding(
-    sheet: Sheet, count: Counter, *, explain: bool = True, check: Callable[[int], None] = _check_pairs
+    sheet: Sheet,
+    count: Counter,
+    *,
+    explain: bool = True,
+    check: Callable[[int], None] = _check_pairs,
+    search: bool = True,
 ) -> FlatFolding:
     """Return what `layers` does of a sheet, its problems counted by a function: a run that can be resumed, say.
 
@@ -531,6 +544,8 @@ def flat_folding(
         As for `layers`; so are the errors.
     check : callable, optional
         Takes the number of pairs of panels over cells, and raises an error if there are too many.
+    search : bool, optional
+        Where sums of sectors are off, look for a precision with which the pattern folds flat.
 
     Examples
     --------
@@ -544,14 +559,16 @@ def flat_folding(
     about = (pattern.sheet, pattern.mechanism, pattern.precision, pattern.moved, pattern.vertices)
     local = _local_fault(pattern.vertices)
     if not all(vertex.kawasaki for vertex in pattern.vertices):
-        return FlatFolding(*about, None, 0.0, (), 0, local)
+        needed = _needed(sheet, pattern, count, check) if search else None
+        return FlatFolding(*about, None, 0.0, (), 0, local, needed=needed)
     panels = folded(pattern.sheet, pattern.mechanism, pattern.points)
     tolerances = Tolerances.of(pattern.precision.size)
     misfit = panels.misfit / extent
     if misfit > tolerances.same_point * len(panels.flipped):
         place = ", ".join(f"{x:.6g}" for x in pattern.points[panels.vertex])
         wrong = f"the folded image does not close: panels part by {misfit:.2g} of the extent at ({place})"
-        return FlatFolding(*about, None, misfit, (), 0, wrong)
+        needed = _needed(sheet, pattern, count, check) if search else None
+        return FlatFolding(*about, None, misfit, (), 0, wrong, needed=needed)
     if panels.unturned is not None:
         wrong = f"the folded image does not close: an odd number of creases round a hole, one of them {panels.unturned}"
         return FlatFolding(*about, None, misfit, (), 0, wrong)
@@ -563,9 +580,30 @@ def flat_folding(
     parts = () if left is None else components_of(constraints, left, count)
     orders = 0 if left is None else prod(part.orders for part in parts)
     if orders:
-        return FlatFolding(*about, image, misfit, parts, orders, "", None, constraints, left)
+        return FlatFolding(*about, image, misfit, parts, orders, "", _constraints=constraints, _reduced=left)
     core = core_of(image, valleys_of(pattern.sheet, pattern.mechanism)) if explain else None
-    return FlatFolding(*about, image, misfit, (), 0, local or CONTRADICTION, core, constraints)
+    return FlatFolding(*about, image, misfit, (), 0, local or CONTRADICTION, core, _constraints=constraints)
+
+
+def _needed(sheet: Sheet, pattern: FlatPattern, count: Counter, check: Callable[[int], None]) -> NeededPrecision | None:
+    """Return a precision with which a pattern folds flat whose sums of sectors or image do not close, if one does."""
+    found = needed_precision(pattern.points, pattern.vertices)
+    if found is None:
+        return None
+    size, moved = found
+    # vertices are wrong by more than the least displacement, which panels that are to lie on each other may need
+    for wider in (1.0, _WIDER):
+        needed = max(size, pattern.precision.size) * wider
+        if needed > COARSEST:
+            break
+        length = rounded_up(needed * extent_of(pattern.points))
+        try:
+            answer = flat_folding(stated(sheet, length), count, explain=False, check=check, search=False)
+        except (NumericalError, UnsolvableError):
+            continue
+        if answer.foldable:
+            return NeededPrecision(length, moved, answer.orders)
+    return None
 
 
 def _local_fault(vertices: Sequence[FlatVertex]) -> str:

@@ -144,8 +144,8 @@ def layers_of_stacked(
     core = core_of(stacked.image, signs, above) if explain and not orders else None
     fault = "" if orders else CONTRADICTION
     return LayersInSpace(
-        *_about(state), stacked.image, 0.0, parts if orders else (), orders, fault, core, constraints, left,
-        state=state, stacked=stacked,
+        *_about(state), stacked.image, 0.0, parts if orders else (), orders, fault, core,
+        _constraints=constraints, _reduced=left, state=state, stacked=stacked,
     )  # fmt: skip
 
 
