@@ -25,7 +25,7 @@ ROWS = [
     Row(
         "Wiener 2016, Section 4.2.3",
         "rods alone of the n-bars with a remote centre, 5 to 8 links: degrees of freedom of the first line",
-        "[synth.convert(synth.read(f'data/wiener/remote-{n}-bar.json'), 'polyhedron') for n in range(5, 9)]",
+        "[synth.convert(synth.read(f'{folder}/remote-{n}-bar.json'), 'polyhedron') for folder in ('data/wiener',) for n in range(5, 9)]",
         "[synth.mobility(graphs.mechanism.polyhedron.PolyhedronModel(m.nodes, m.edges, centres=m.centres)).verdict.freedoms "
         "for m in answer]",
         words="n - 3",
