@@ -44,12 +44,11 @@ ROWS = [
     ),
     Row(
         "Wiener 2016, Table 1",
-        "M and h of a planar crank-rocker, Eq. 1 with lambda = 3, by `mobility` and by `explain`",
+        "M and h of a placed slider-crank, Eq. 1 with lambda = 3, by `mobility` and by `explain`",
         "(lambda m: [synth.mobility(m), synth.explain(m)])(synth.read('data/joints/slider-crank-placed.json'))",
         "[answer[0].mobility, answer[0].overconstraint, answer[1].count, answer[1].overconstraint]",
         words="lambda = 3 in a plane",
         right=[1, 0, 1, 0],
-        remark="with one slider: `data` has a placed slider-crank",
     ),
     _shown(wampler_2007.ROWS, "Wampler 2007", "Collapsible cube", "h by the motion"),
     _shown(wiener_2016.ROWS, "Wiener 2016", "Section 4.2.5.6", "as an SCD graph"),

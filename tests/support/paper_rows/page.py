@@ -30,7 +30,9 @@ The papers themselves are not at hand, only text that was taken out of them, and
 under *printed* where it is in that text. The last column is *equal*; or *holds*, of a claim without a figure; or *none at hand*, where the figure is not in that text and
 ours is held to a second method or to `data/golden.json`; or the item in the list of [misprints](misprints.md), *ours* then being the right figure; or why it cannot be done. `answer` is
 what the command prints with `--json`, or the value of the call, before the last expression is taken of it. Commands run in a clone of the repository, in this order in a row;
-expressions are Python as it stands, after `import json, graphs, synth`, `import numpy as np` and, for a command, `answer = json.loads(output)`.
+expressions are Python as it stands, after `import json, graphs, synth`, `import numpy as np` and, for a command with `--json`, `answer = json.loads(output)`.
+The last section has what an independent pass through the papers found to differ, or not to be answered, as far as its items are at hand; where a row of a
+paper shows an item, it is *shown above*.
 """
 
 
