@@ -25,7 +25,7 @@ _PACKAGES = ("graphs", "enumerate", "synth")
 _FLAGS = ("-O3", "-std=c99", "-fPIC", "-shared", "-ffp-contract=off", "-fvisibility=hidden", "-pthread")
 """No products and sums are contracted: processors would round them differently."""
 _OFF = "SYNTHEDRA_COMPILED"
-_SECONDS = 120
+_SECONDS = 120  # a compiler takes some, also under emulation; one that hangs must not hang the installation
 
 
 def sources(root: Path = _ROOT) -> list[Path]:

@@ -23,9 +23,9 @@ __all__ = [
     "shown",
 ]
 
-_LONGEST_MESSAGE = 4_000
-_LONGEST_FILE = 4_096
-_LONGEST_PLACE = 120
+_LONGEST_MESSAGE = 4_000  # letters: a screen; a message may quote a file, and a file can be one line of megabytes
+_LONGEST_FILE = 4_096  # letters of a path: the longest that Linux opens (PATH_MAX)
+_LONGEST_PLACE = 120  # letters: a place is a key or a line number, or names that a file made up, longer than a line
 
 
 def numbered(number: int, word: str, more: str = "") -> str:

@@ -37,8 +37,9 @@ __all__ = [
     "unit",
 ]
 
+# Part of the largest extent. A decomposition rounds by some 1e-16 times the root of the number of points; this holds
+# for any number of points, and is far below the errors of drawn coordinates, 1e-6 and more.
 _ROUNDING = 1e-12
-"""Part of the largest extent below which an extent is rounding, however many points there are."""
 
 
 def unit(vectors: npt.ArrayLike) -> Floats:

@@ -33,7 +33,7 @@ __all__ = [
 
 LONGEST_CELL = 10_000
 """Most letters of a cell of a table: ids of large mechanisms are long, and are there to be copied."""
-_WIDEST = 60
+_WIDEST = 60  # letters of a value in a sentence: with the sentence round it a line of a terminal, 80 columns
 _CUT = "..."
 
 

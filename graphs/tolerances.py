@@ -34,18 +34,19 @@ __all__ = [
 EPSILON = 2.0**-52
 """The rounding unit of double precision."""
 
-_BLURRED, _COARSEST = 30.0, 3e-3
-"""Singular values and eigenvalues at rounded coordinates are zero up to this many times the precision, and never
-above the second value: within it mobile and rigid mechanisms cannot be told apart."""
-_NEARLY, _VAGUE = 8.0, 0.1
-"""Equations between rates are off by so many errors of a direction at most where they hold at the coordinates that
-were meant; above the second value hardly any two patterns can be told apart."""
+# Precisions. Errors of coordinates move singular values off zero by what they turn axes: by the precision over the
+# length of a crease, which may be a tenth of the extent and less, and a loop sums up several.
+_BLURRED = 30.0
+# Never more counts as zero, however rough the coordinates: within it mobile and rigid mechanisms cannot be told apart.
+_COARSEST = 3e-3
+# Errors of a direction. Equations between rates hold where coordinates were meant, and are off by several of them where
+# they are rounded, since each sums up the directions round a vertex.
+_NEARLY = 8.0
+_VAGUE = 0.1  # never more, however short the creases: hardly any two patterns can be told apart above it
+# Whoever draws or solves for points of one plane has five digits or more; panels of a design deviate more.
 _MEANT_FLAT = 1e-5
-"""Whoever draws or solves for points of one plane puts them this close to it."""
-_MEANT = 1e-6
-"""Whoever draws lines of one point puts them this close to it."""
-_MOVED = 4.0
-"""A length between two rounded points, or an angle over a length of 1, is wrong by so many precisions at most."""
+_MEANT = 1e-6  # whoever draws lines of one point has the six digits that programs write by default
+_MOVED = 4.0  # a length is wrong by the errors of two points along each of three axes, 2 sqrt(3) precisions, rounded up
 
 
 @dataclass(frozen=True, slots=True)
@@ -145,8 +146,8 @@ DOUBLE = Tolerances.of(EPSILON)
 MARGIN = 1e-6
 """Numbers that differ by less than this part of the largest are equal: far above rounding, far below what symmetry
 leaves different."""
+# Squared length of a row of orthonormal columns that is nothing: rounding leaves 1e-16 to the square, and less.
 _DEPENDS = 1e-12
-"""Squared length, of rows of orthonormal columns, below which nothing is left of a row."""
 
 
 def leading(values: Floats) -> int:

@@ -40,12 +40,11 @@ from graphs.tolerances import DOUBLE
 MOST_JOINTS = 2000
 """Larger mechanisms are ranked on request only: so many joints take a second, ten times as many twenty seconds."""
 
-_DIAGNOSED_UNASKED, _MOST_DIAGNOSED = 400, 20_000
-"""Of larger mechanisms it is found on request only why the count differs, and never: seconds, a quarter of a minute."""
-_ENDS = 2
-"""Vertices of a rod."""
-_LISTED = 12
-"""Joints that are named, at most."""
+# Joints up to which it takes seconds to find why the count differs: nobody waits longer unasked.
+_DIAGNOSED_UNASKED = 400
+_MOST_DIAGNOSED = 20_000  # joints beyond which it takes over a quarter of a minute, and names places nobody can look at
+_ENDS = 2  # a body of two vertices is a rod: its spin about its own line moves nothing, so it has 5 freedoms and not 6
+_LISTED = 12  # joints that are named: a region can have hundreds, and a line holds about so many
 
 
 def with_exact(

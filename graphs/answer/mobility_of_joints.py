@@ -91,10 +91,9 @@ def _wampler(linkage: JointedLinkage) -> dict[str, EquationResult]:
     return {name: replace(equations[name], why=f"{vertices}, S+3 {len(model.centres)}{spins}")}
 
 
-_FEW = 3
-_SPATIAL = 6
-_ROD = 2
-"""Joints of a rod between balls."""
+_FEW = 3  # legs that are named in a sentence: they are alike, and the rest is a number
+_SPATIAL = 6  # equations that a loop in space closes with, and the freedoms of a body there
+_ROD = 2  # joints of a rod between balls: its spin has no effect, even where the ring of its joints is all there is
 
 
 @dataclass(frozen=True, slots=True)

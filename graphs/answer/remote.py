@@ -21,8 +21,9 @@ from graphs.mechanism.precision import extent_of, precision_of
 from graphs.tolerances import DOUBLE, Tolerances
 from graphs.types import Floats
 
+# k of a loop of scissors that keeps its centre: of the six freedoms that closing costs by count, two are not there,
+# since far and near ends lie on rays from one centre (docs/theory/polyhedron-model.md).
 _OF_SCISSORS = 4
-"""k of a loop of scissors that keeps its centre."""
 
 
 @dataclass(frozen=True, slots=True)

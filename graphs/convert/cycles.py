@@ -18,8 +18,9 @@ from graphs.mechanism.sheet import Edge, Sheet, sides_of_face
 from graphs.tolerances import DOUBLE, Tolerances
 from graphs.types import Floats
 
+# Units of the extent. Lines that meet farther off differ from parallel ones by less than a thousandth of a radian over
+# the sheet, and errors of 1e-6 in their directions move the point by the extent: it is no centre that anybody meant.
 _FARTHEST = 1e3
-"""Lines that meet farther than this, in units of the extent, may as well be parallel."""
 
 
 def loops_with_centres(sheet: Sheet, cycles: Sequence[tuple[int, ...]], hinges: Mapping[int, Edge]) -> list[Loop]:

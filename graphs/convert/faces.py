@@ -16,8 +16,9 @@ from graphs.mechanism.precision import flattened
 from graphs.mechanism.sheet import COLLINEAR, HINGES, Sheet, sides_of_face
 from graphs.types import Floats
 
+# Part of the area of all faces. Drawn coordinates of six digits make neighbours overlap by slivers of this size; a face
+# that truly covers another covers far more.
 _OVERLAP = 1e-6
-"""Faces overlap if they cover less than their areas by this part."""
 
 
 def creases_on_no_face(sheet: Sheet) -> int:

@@ -18,17 +18,15 @@ from graphs.types import Floats
 BENT = 0.03
 """Hinges farther off one line than this, in units of their lengths, are bent: equal ones by over 3.4 degrees."""
 
+# Ratio of the ends of a plateau. Between errors of one size and bends there is a decade without any; between two errors
+# of one drawing, hardly ever (docs/theory/crease-patterns.md).
 _PLATEAU = 10.0
-"""Tolerances are a plateau if the largest is this many times the smallest."""
 
-_APART = 1.0
-"""The deviation that hinges count with if they are bent."""
+_APART = 1.0  # deviation that bent hinges count with: any number above `BENT` keeps them apart at all tolerances
 
-_SHORTEST = 1e-12
-"""Shorter hinges count as this long, in units of the extent of the sheet."""
+_SHORTEST = 1e-12  # of the extent: hinges of no length are divided by this, which no two vertices of a sheet are apart
 
-_AT_ONCE = 50_000
-"""Pairs of hinges that are measured in one go: less than a kilobyte each."""
+_AT_ONCE = 50_000  # pairs measured in one go: each takes nearly a kilobyte, so that memory stays below 50 MB
 
 Indices = npt.NDArray[np.int64]
 

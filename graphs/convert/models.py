@@ -23,10 +23,10 @@ from graphs.mechanism.scd import SCDGraph
 from graphs.mechanism.sheet import sides_of_face
 from graphs.types import JointId
 
-_LARGEST = 8
-"""Vertices of the largest body whose cyclic orders are listed: 2 520 without joints."""
+_LARGEST = 8  # vertices of a body whose cyclic orders are listed: 2520 of eight, 20 160 of nine
+# Choices of cyclic orders of all bodies that are compared, each a drawing that is made and given an id: more would take
+# minutes.
 _MOST = 4096
-"""Choices of cyclic orders that are compared."""
 
 Cycle = tuple[VertexId, ...]
 
@@ -122,7 +122,7 @@ def _of_bodies(model: PolyhedronModel, bodies: Sequence[Cycle]) -> SCDGraph:
     return scd
 
 
-_TRIANGLE = 3
+_TRIANGLE = 3  # three vertices have one cyclic order up to reflection: nothing is to be chosen
 
 
 def _orders(body: Cycle, sets: Sequence[frozenset[VertexId]], of_vertex: Mapping[VertexId, int]) -> Iterator[Cycle]:

@@ -23,12 +23,13 @@ from graphs.input_limits import check_work
 from graphs.mechanism.sheet import HINGES, Edge, Place, Reading, Repair, RepairKind, Sheet, sides_of_face
 from graphs.types import Floats
 
+# Part of the tolerance. A crossing computed from two pairs of lines differs by rounding only, far less than this; true
+# crossings as near would be welded anyway, and so the list alone gets shorter.
 _SAME = 1e-3
-"""Crossings nearer than this, in units of the tolerance, are one that was found more than once."""
+# Part of a tolerance. A crossing that stands for others is off by `_SAME`, two ends of a distance twice, and both ways:
+# a distance within this of a tolerance may be on either side of it, so that both sides are tried.
 _MARGIN = 4 * _SAME
-"""Distances nearer than this to a tolerance, in its units, may be on either side of it."""
-_PIECE = 256
-"""Lines whose meetings are searched at once."""
+_PIECE = 256  # lines whose meetings are searched at once: a fan has all pairs, a quarter of a million of 512 lines
 _RANK = "MVUFJBC"
 """Of two lines in one place the one whose letter comes first here counts."""
 
@@ -316,7 +317,11 @@ def either_way(a: int, b: int) -> Edge:
 
 
 TOLERANCES = (1e-6, 1e-5, 1e-4, 3e-4, 6e-4, 1e-3, 2e-3)
-"""Welding tolerances that are tried, in units of the size of the pattern."""
+"""Welding tolerances that are tried, in units of the size of the pattern.
+
+Programs write six digits, so that finer ones weld nothing; the coarsest is a stroke's width of a drawing, where details
+begin to vanish. They are closer together where ends drawn by hand lie.
+"""
 
 MOST = 1e12
 """Largest coordinate that is traced: products of four of them stay finite."""

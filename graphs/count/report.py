@@ -17,7 +17,7 @@ from graphs.mechanism.sc import Arrangement, SCGraph, arrangement_of
 from graphs.mechanism.scd import SCDGraph
 from graphs.plain_data import plain_data
 
-_MANY = 3
+_MANY = 3  # centres that lie on one axis are in one line: of two that says nothing, of three it is a condition
 
 
 @dataclass(frozen=True)

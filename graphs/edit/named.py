@@ -7,8 +7,7 @@ from graphs.errors import InvariantError, shown
 from graphs.mechanism.sc import SCGraph
 from graphs.types import JointId, LinkId
 
-_MOST = 12
-"""Names that are listed in a message."""
+_MOST = 12  # names listed in a message: enough to see how they look, and a line or two
 
 
 def known(names: Iterable[Hashable], unknown: str) -> str:

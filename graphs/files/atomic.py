@@ -25,11 +25,10 @@ if sys.platform != "win32":
 
 
 _ENDING = ".unfinished"
+# Letters kept of a name: file systems allow 255 bytes, and prefix, digest and ending have to fit beside it.
 _LONGEST = 32
-"""Letters of a name that are kept in that of an unfinished file; a digest stands for the rest."""
 
-_PATIENCE = 1.0
-"""Seconds in which whoever stops a run may wait for files to be removed."""
+_PATIENCE = 1.0  # seconds for removing files before a run stops: who pressed Ctrl-C waits no longer
 
 _locks: set[int] = set()
 """Descriptors that hold locks of this process."""

@@ -40,8 +40,8 @@ def are_kept(names: Collection[Hashable]) -> bool:
     return list(names_from_text(map(str, names)).values()) == list(names)
 
 
-_GRAPH6_OFFSET = 63
-_LARGEST_SHORT = 62
+_GRAPH6_OFFSET = 63  # graph6 adds it to each six bits: 63 to 126 are the printable letters from ? to ~
+_LARGEST_SHORT = 62  # nodes that one letter announces: 63 is the sign that more letters follow
 
 
 def read_graph6(path: Path) -> Iterator[tuple[int, nx.Graph]]:

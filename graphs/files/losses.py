@@ -23,8 +23,7 @@ from graphs.mechanism.solids import HingedSolids
 from graphs.mechanism.surfaces import SurfaceLinkage
 from graphs.printing import plain
 
-_KEYS = 12
-"""So many keys of a file are named."""
+_KEYS = 12  # keys of a file that are named: programs write dozens of their own, and one line says what is lost
 
 
 def lost_as_json(mechanism: Mechanism) -> Lost:

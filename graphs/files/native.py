@@ -21,7 +21,7 @@ from graphs.mechanism.surfaces import Cone, Cylinder, Pair, Surface, SurfaceLink
 from graphs.mechanism.vertex_edge import VertexEdgeGraph
 from graphs.types import JointId, LinkId
 
-VERSION = 1
+VERSION = 1  # of our own JSON files; others are refused, so it is raised only when old files would be misread
 
 
 def head(kind: str) -> dict[str, Any]:

@@ -42,7 +42,7 @@ def read_text(path: Path) -> str:
 
 
 _KINDS = {stat.S_IFIFO: "a pipe", stat.S_IFSOCK: "a socket", stat.S_IFCHR: "a device", stat.S_IFBLK: "a device"}
-_MEGABYTE = 10**6
+_MEGABYTE = 10**6  # as disks and file managers count, so that the limit is the number a user sees there
 
 
 def _bytes_of(path: Path) -> bytes:
@@ -138,8 +138,7 @@ def in_degrees(angle: float) -> float:
 
 T = TypeVar("T")
 
-_SIMILAR = 0.75
-"""How similar a known key must be for a message to suggest it: centre for center, not format for colour."""
+_SIMILAR = 0.75  # of difflib: lower it suggests format for colour, higher it misses center for centre
 _MISSING = {
     "loops": 'a list of loops; a tree has none, "loops": []',
     "centre": '"centre": "finite", "infinite" (planar) or "none" (spatial)',

@@ -17,10 +17,10 @@ from graphs.mechanism.solids import Axis
 from graphs.tolerances import Tolerances
 from graphs.types import Floats, JointId, LinkId
 
+# Sine of the angle between two axes. Errors of directions move their common point by 1 / sine: below this, fifty times,
+# other axes through it would be missed, or others taken for them.
 _ACROSS = 0.02
-"""Sine between two axes whose common point is known well enough to look for others through it."""
-_MOST = 40
-"""Joints about one centre whose shortest cycles are looked for; of more any basis of cycles does."""
+_MOST = 40  # joints about one centre whose shortest cycles are listed: there may be 2^40 cycles, and any basis is right
 
 
 def centred_by_axes(

@@ -100,8 +100,8 @@ def plain_vector(vector: Floats) -> Vector:
     return (x, y, z)
 
 
+# Cosine: files have six digits; a universal joint whose axes are farther from a right angle is another joint.
 _RIGHT = 1e-6
-"""Cosine between the axes of a universal joint, at most."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -20,12 +20,10 @@ from graphs.mechanism.solids import Axis, HingedSolids
 from graphs.tolerances import Tolerances
 from graphs.types import Floats, JointId, LinkId
 
-_SMALL = 0.1
-"""Size of the chain that stands for a joint, in units of the extent."""
-_ARM = 0.5
-"""Height of a knee over the line between its ends, in units of their distance."""
+_SMALL = 0.1  # of the extent: any size moves alike; this is neither lost beside the mechanism nor larger than it
+_ARM = 0.5  # height of a knee by the distance of its ends: a right angle, farthest from stretched and from folded
+# No two sides are equal or parallel to an axis: equal ones could fold up.
 _TRIANGLE = ((0.0, 0.0), (1.0, 0.2), (0.3, 0.9))
-"""Axes of a planar joint in its plane: no two sides are equal, unlike those of a knee."""
 
 Line = tuple[Floats, Floats]
 Row = list[Line]
@@ -152,8 +150,9 @@ def _about_a_point(point: Floats, shared: tuple[int, Floats] | None) -> Row:
     return [(point, axis) for axis in (axes if place == 0 else axes[::-1])]
 
 
+# Volume of three unit vectors. A chain of three axes through a point turns about it in all ways if this is not 0; drawn
+# at random it is about 0.4, while axes of one plane with errors of 1e-6 make some 1e-6.
 _FLAT = 1e-3
-"""Volume of three unit vectors through a point that turn about it in all ways, at least."""
 
 
 def recognised(solids: HingedSolids) -> JointedLinkage:

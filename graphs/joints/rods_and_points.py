@@ -13,7 +13,7 @@ from graphs.loops.loop import Centre
 from graphs.mechanism.polyhedron import PointConstraint, PolyhedronModel, RemoteCentre
 from graphs.types import JointId, LinkId
 
-_BODY = 3
+_BODY = 3  # vertices that fix a body: with two it could turn about their line
 
 
 def points_of(linkage: JointedLinkage) -> PolyhedronModel:

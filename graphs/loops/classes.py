@@ -17,7 +17,8 @@ from graphs.loops.loop import Centre, Loop
 from graphs.types import JointId
 
 FEW = 16
-"""A joint with more loops is *crowded*: its loops are found by a table, not in pairs."""
+"""A joint with more loops is *crowded*: its loops are found by a table, not in pairs, of which 16 have 120, and
+1500 a million. Below, pairs are quicker; answers do not depend on it."""
 
 
 class Merger:

@@ -11,8 +11,7 @@ from itertools import combinations
 
 from graphs.mechanism.polyhedron import PolyhedronModel, VertexId
 
-_FIXED = 3
-"""Rods that fix a vertex in a body, and vertices that make two bodies one."""
+_FIXED = 3  # rods fix a vertex in a body by its three coordinates; three common vertices make two bodies one
 
 
 def undeclared_rods(model: PolyhedronModel) -> list[tuple[VertexId, VertexId]]:

@@ -508,6 +508,7 @@ ARRANGEMENTS: dict[Arrangement, str] = {
 }
 """What each class is, in words."""
 
+# Parts that make a row: of two joined to each other any two squares side by side would be doubly periodic.
 _REPEATED = 3
 
 

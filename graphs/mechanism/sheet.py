@@ -34,8 +34,7 @@ RepairKind: TypeAlias = Literal[
     "hole",
 ]
 
-_FIRST = 3
-"""How many places a line names."""
+_FIRST = 3  # places that a line names: enough to find them in the drawing, and the line is read to its end
 
 
 @dataclass(frozen=True, slots=True)

@@ -23,6 +23,8 @@ from graphs.rank.dissection import KernelsModulo, matrices, rank_modulo, sparse_
 from graphs.rank.realisation import PRIMES, Field, GenericRealisation, Line, Point, PrimeField, realise
 from graphs.types import Floats, Ints, JointId, LinkId
 
+# Parts (direction, moment) and components of screws. The moments of axes through one point are linear in their
+# directions, so that three equations say all six; in space all are independent.
 _FINITE = [(0, 0), (0, 1), (0, 2)]
 _SPATIAL = [*_FINITE, (1, 0), (1, 1), (1, 2)]
 

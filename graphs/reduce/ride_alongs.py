@@ -148,9 +148,9 @@ def _loops_of_classes(work: WorkingGraph, choices: Sequence[_Choice]) -> dict[in
     return loops
 
 
+# Links up to which the id of what is left is printed: that of more fills lines, and nobody compares it.
 _MOST_NAMED = 60
-"""Links of the largest mechanism whose id is printed with it: longer ones fill lines."""
-_MOST_SHOWN = 200
+_MOST_SHOWN = 200  # steps that are listed: four screens; data has all
 
 
 @dataclass(frozen=True, slots=True)

@@ -111,11 +111,10 @@ Point = tuple[float, float]
 DrawnShape = tuple[Record, list[tuple[Point, Point]] | None]
 """A record and its pieces; None for a record that is no known shape."""
 
-_PIECES = 8
-"""Straight pieces of a bulge of a polyline, and of a quarter of a circle."""
-_CLOSED = 1
+_PIECES = 8  # straight pieces of a bulge and of a quarter circle: they stay within half a percent of the radius
+_CLOSED = 1  # bit 1 of group 70 (DXF reference, POLYLINE)
+# Bits of group 70 for curves in space, nets of surfaces and meshes: none is a row of creases.
 _FLAT_POLYLINE = 8 | 16 | 64
-"""Flags of polylines that are curves in space or meshes."""
 _Corner = tuple[Point, float]
 """A corner of a polyline, and the bulge of the side after it: the tangent of a quarter of its angle."""
 
@@ -221,6 +220,7 @@ def _on_circle(centre: Point, radius: float, start: float, turn: float) -> list[
 _FIRST = bytes.fromhex("ff0000 ffff00 00ff00 00ffff 0000ff ff00ff 000000 808080 c0c0c0")
 """Colours 1 to 9; 7 is black on white paper."""
 _GREYS = {250: 51, 251: 91, 252: 132, 253: 173, 254: 214, 255: 255}
+# Brightness of the five shades of a hue in the AutoCAD colour index, the darkest last.
 _VALUES = (1.0, 0.65, 0.5, 0.3, 0.15)
 
 
@@ -240,7 +240,7 @@ def rgb_of_number(number: int) -> Rgb | None:
     return red, green, blue
 
 
-_LONGEST_WORDS = 250
+_LONGEST_WORDS = 250  # letters of a text: release 12, which we write, allows 255 bytes
 
 
 @dataclass(frozen=True, slots=True)
@@ -337,9 +337,10 @@ _WRITTEN = {
     "J": DxfLayer("JOIN", 2),
     "U": DxfLayer("UNASSIGNED", 6),
 }
-_BY_BLOCK, _BY_LAYER = 0, 256
-_PAPER_SPACE = 67
-_LONGEST_NAME = 40
+_BY_BLOCK = 0  # number of no colour: that of the block in which a shape is
+_BY_LAYER = 256  # number of no colour: that of the layer, and what a shape without a colour has
+_PAPER_SPACE = 67  # group code: 1 is for shapes of the printed sheet (frames, titles), which are no creases
+_LONGEST_NAME = 40  # letters of names in messages: files of others have layers with paths of files in their names
 _BORDER = "border lines (a layer CUT or BORDER, or black)"
 
 

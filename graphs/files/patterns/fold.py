@@ -115,7 +115,7 @@ def _named_today(frame: Mapping[str, Any], notes: list[str]) -> dict[str, Any]:
     return renamed
 
 
-_FAR = 1e300
+_FAR = 1e300  # what is larger is refused here, as no number, before arrays of it overflow; limits are checked later
 _SPREAD = "synthedra:spread"
 """Own key: the distances of points welded in tracing; centres and hinges depend on it."""
 _PRECISION = "synthedra:precision"

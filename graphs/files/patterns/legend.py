@@ -82,19 +82,18 @@ _SWATCHES = {
 }
 """Greens and yellows of CSS, Illustrator and CorelDRAW that are farther from the pure ones than `_NEAR`, or whose
 hue is."""
+# Distance in RGB, summed: pure colours are 255 or more from each other, so that within less than half of that a stroke
+# is near to one of them only. What is farther is that colour only by its hue, or as a swatch.
 _NEAR = 120
-"""A stroke farther than this from an origami colour (in RGB) is that colour only by its hue, or as a swatch."""
-_HUE = 15 / 360
-"""A hue farther than this from that of its colour is another colour: orange is neither yellow nor red."""
+_HUE = 15 / 360  # half of the 30 degrees between red and orange, orange and yellow: orange is neither
 _HUES = {"M": (342 / 360, 17 / 360), "V": (193 / 360, 255 / 360)}
 """Hues that are red and blue: from crimson to vermilion, from process blue to indigo. Cyan (180 to 192), which
 some programs draw auxiliary lines in, is neither, nor is violet."""
-_STRONG, _BRIGHT = 0.5, 0.3
-"""Saturation and value from which a hue is seen: pink and nearly black are no red."""
-_GREY, _DARK = 60, 64
-"""Black has red, green and blue no more apart than the first; dark greys below the second are black."""
-_SAME = 12
-"""A swatch is met within this (in RGB)."""
+_STRONG = 0.5  # saturation from which a hue is seen: pink is no red
+_BRIGHT = 0.3  # value from which it is: what is nearly black has a hue by chance
+_GREY = 60  # difference of red, green and blue up to which a colour looks grey: inks and scans are no neutral grey
+_DARK = 64  # greys darker than a quarter are meant as black; lighter ones are auxiliary lines
+_SAME = 12  # distance in RGB, summed: conversions between colour spaces round each part by some units
 _NAMES = {
     "B": "border borders boundary outline contour",
     "C": "cut cuts cutting",
@@ -104,7 +103,10 @@ _NAMES = {
     "U": "unassigned",
 }
 _LETTERS = {name: letter for letter, names in _NAMES.items() for name in names.split()}
-_DASH_DOT, _DOTTED = (("DASHDOT", "CENTER", "PHANTOM", "DIVIDE", "ISO04", "ISO05", "ISO08", "ISO1"), ("DOT", "ISO07"))
+_DASH_DOT = ("DASHDOT", "CENTER", "PHANTOM", "DIVIDE", "ISO04", "ISO05", "ISO08", "ISO1")
+"""Parts of the names of line types of AutoCAD and ISO 128 that have dashes and dots."""
+_DOTTED = ("DOT", "ISO07")
+"""Of those that have dots only; looked for after `_DASH_DOT`, whose names contain them."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -186,10 +188,9 @@ def name_of_rgb(rgb: Rgb) -> str:
 LEFT_OUT = "-"
 """In place of an assignment: lines that are no part of the pattern."""
 _ASSIGNMENTS = "MVBCFUJ" + LEFT_OUT
+# Distance in RGB, summed: programs round what they convert, and a colour that was stated leaves nothing to be guessed.
 _STATED_NEAR = 40
-"""A colour that was stated is met within this (in RGB): programs round what they convert."""
-_KINDS = 6
-"""Kinds of strokes that are named in a message."""
+_KINDS = 6  # kinds of strokes named in a message, the most frequent: a drawing with text has dozens
 _YOSHIZAWA: Mapping[Dash, str] = {"dash-dot": "M", "dashed": "V"}
 _NOT = "have strokes that are not understood"
 _WAYS = (

@@ -116,8 +116,8 @@ _TO_A_STEP = {"h": 1, "v": 1, "c": 6, "s": 4, "q": 4, "a": 7}
 """Numbers of each step of a relative command; of the others two."""
 _FUNCTION = re.compile(r"([a-zA-Z]+)\s*\(([^)]*)\)")
 _SHIFT = slice(4, None)
+# Decimals: entries of a matrix with fewer are turns by 0, 90 or 180 degrees and scales chosen by hand, hence exact.
 _ROUNDED = 4
-"""Entries of a matrix with fewer decimals are taken to be exact."""
 
 
 class _Shape(NamedTuple):
@@ -233,15 +233,13 @@ def _stretch(transform: str) -> float:
 
 
 _BORDER = "border lines (black strokes)"
-_LONGEST_TITLE = 1_000
-_DECIMALS = 12
-"""Decimals of fold angles in degrees: finer ones come of dividing by 180."""
-_LONGEST_LOOK = 40
+_LONGEST_TITLE = 1_000  # letters: a title is a line above the drawing; a FOLD file may have a story there
+_DECIMALS = 12  # of fold angles in degrees: an opacity times 180 has rounding in the next, and 45 should read 45
+_LONGEST_LOOK = 40  # letters of a stroke quoted in a message: some files have whole style sheets in it
 _NAMES = ("class", "id", "data-name", "{http://www.inkscape.org/namespaces/inkscape}label")
 """Attributes with names of groups, layers and shapes: of Illustrator, of Inkscape."""
 _NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d{1,3})?")
-_PIECES = 8
-"""Straight pieces of a curved segment."""
+_PIECES = 8  # straight pieces of a curve: a quarter circle stays within half a percent of its radius
 
 
 def sheet_from_svg(path: Path, legend: Legend = UNSTATED) -> Sheet:

@@ -20,8 +20,7 @@ from graphs.mechanism.solids import Axis, HingedSolids
 from graphs.types import Floats, JointId
 
 WORLD = "world"
-_LARGEST = 1e100
-"""Numbers of a file are no larger, so that squares of lengths along a chain of bodies are numbers."""
+_LARGEST = 1e100  # squares of lengths, summed along a chain of bodies, stay below the largest double, 1.8e308
 IDENTITY = (np.eye(3), np.zeros(3))
 Frame = tuple[Floats, Floats]
 """Rotation float[3, 3] and origin float[3]."""

@@ -17,13 +17,13 @@ from graphs.files.solids.meshes import SolidMesh
 from graphs.printing import plain
 from graphs.types import Floats
 
-_LONGEST = 100
-_FLOATS, _INDICES = 5126, 5125
-"""Component types: 32-bit numbers, unsigned 32-bit integers."""
-_CORNERS, _TRIANGLES = 34962, 34963
-"""What a part of the buffer is for."""
-_METRES = 0.001
-_Y_UP = [-(0.5**0.5), 0.0, 0.0, 0.5**0.5]
+_LONGEST = 100  # letters: names are shown in trees of viewers, and may be ids of a thousand letters
+_FLOATS = 5126  # number of 32-bit floats in glTF, as in OpenGL
+_INDICES = 5125  # number of unsigned 32-bit integers: 16 bits would end at 65 535 corners
+_CORNERS = 34962  # part of the buffer that holds corners (ARRAY_BUFFER of OpenGL)
+_TRIANGLES = 34963  # part that holds their numbers (ELEMENT_ARRAY_BUFFER)
+_METRES = 0.001  # glTF is in metres, meshes are in millimetres
+_Y_UP = [-(0.5**0.5), 0.0, 0.0, 0.5**0.5]  # a quarter turn about x as a quaternion: in glTF y points up, here z
 _MATERIAL = {"pbrMetallicRoughness": {"baseColorFactor": [0.8, 0.8, 0.75, 1.0], "metallicFactor": 0.0}}
 
 

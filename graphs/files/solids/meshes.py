@@ -30,7 +30,7 @@ class SolidMesh:
     triangles: npt.NDArray[np.int64]
 
 
-_LONGEST = 100
+_LONGEST = 100  # letters: slicers show names in a list, and ids may have a thousand letters
 
 
 def obj_of_meshes(meshes: Sequence[SolidMesh]) -> str:
@@ -69,8 +69,7 @@ _RELATIONS = (
     '<Relationship Target="/3D/3dmodel.model" Id="rel0" '
     'Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/></Relationships>'
 )
-_FIRST_DAY = (1980, 1, 1, 0, 0, 0)
-"""The date of all parts of the file: the first that ZIP has."""
+_FIRST_DAY = (1980, 1, 1, 0, 0, 0)  # the first date that ZIP has: equal models are to be equal files, whenever written
 
 
 def three_mf_bytes(meshes: Sequence[SolidMesh]) -> bytes:
