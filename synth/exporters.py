@@ -47,12 +47,11 @@ class Placed:
         return made if self.then is None else self.then(made)
 
 
-_SCENES, _SOLIDS, _MOTIONS = (
-    "synth.making.drawing.scene.writing",
-    "synth.making.templates.solids",
-    "synth.making.drawing.space.motion_files",
-)
-_SIMULATION, _FLAT_FOLDED = "synth.making.simulation", "synth.making.drawing.mechanisms.flat_folded"
+_SCENES = "synth.making.drawing.scene.writing"
+_SOLIDS = "synth.making.templates.solids"
+_MOTIONS = "synth.making.drawing.space.motion_files"
+_SIMULATION = "synth.making.simulation"
+_FLAT_FOLDED = "synth.making.drawing.mechanisms.flat_folded"
 
 _PNG = Format(".png", "PNG", Placed(f"{_SCENES}:png_bytes"), needs="matplotlib.font_manager")
 _SVG = Format(".svg", "SVG", Placed(f"{_SCENES}:svg_bytes"))

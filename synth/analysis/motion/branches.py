@@ -488,19 +488,19 @@ class _BranchSearch:
             end = followed(self.linkage, self.closure, rates, immobile, self._allowance, counted=counted)
         certainty: Certainty = "numerical" if end.far else "not known"
         freedoms = beside or end.freedoms if end.far else None
-        component = part.component
+        larger = False
         if freedoms is not None and freedoms > most_freedoms(space, rates):
             if self.all_spaces:
                 freedoms = None  # where it was traced to it meets a branch with more; no larger space has its rates
             else:  # part of a larger branch, whose own space the search did not come to
                 immobile = self._immobile_at(end.sample, immobile)
-                component = -freedoms
+                larger = True
         if linear or proved:
             freedoms, certainty = space.basis.shape[1] - len(space.left), "proved"
         elif part.certified and beside == 1:
             freedoms, certainty = 1, "proved"
         modes, begun = self.vertices.modes(rates), not late or certainty == "proved"
-        followed_to = (end.sample, end.error, end.far, begun, component)
+        followed_to = (end.sample, end.error, end.far, begun, part.component, larger)
         return Branch(freedoms, certainty, space, rates, immobile, modes, *followed_to)
 
     def _immobile_at(self, sample: Floats, immobile: tuple[int, ...]) -> tuple[int, ...]:

@@ -66,8 +66,10 @@ class Branch:
         Whether it was followed, or proved; False if the search had nothing left for it.
     component : int or None
         Of equations that leave one space of rates with more than points: the number of that space. Ways to begin
-        with one number, such as with vertices popped up or down, are counted as one branch. Negative where it has
-        more freedoms than its space allows, as part of a larger branch; all such with as many may be the same.
+        with one number, such as with vertices popped up or down, are counted as one branch.
+    part_of_larger : bool
+        Whether it has more freedoms than its space allows: it is part of a larger branch, whose own space the search
+        did not come to. All such with as many freedoms may be parts of the same, and are counted as one.
 
     Examples
     --------
@@ -87,6 +89,7 @@ class Branch:
     followed: float
     begun: bool = True
     component: int | None = None
+    part_of_larger: bool = False
 
     @property
     def signs(self) -> str:
@@ -229,11 +232,11 @@ class Branches:
             return self.total
         if not self.parts:
             known = [branch for branch in self.branches if branch.certainty != "not known"]
-            alone = Counter(branch.freedoms for branch in known if branch.component is None)
-            together = {branch.component: branch.freedoms for branch in known if branch.component is not None}
-            whole = alone + Counter(freedoms for component, freedoms in together.items() if component >= 0)
-            parts = {freedoms for component, freedoms in together.items() if component < 0}
-            return whole + Counter(parts - whole.keys())
+            whole = [branch for branch in known if not branch.part_of_larger]
+            alone = Counter(branch.freedoms for branch in whole if branch.component is None)
+            together = {branch.component: branch.freedoms for branch in whole if branch.component is not None}
+            counted = alone + Counter(together.values())
+            return counted + Counter({branch.freedoms for branch in known if branch.part_of_larger} - counted.keys())
         total: Counter[int | None] = Counter({0: 1})
         for part in self.parts:
             sums: Counter[int | None] = Counter()

@@ -22,9 +22,10 @@ from graphs.types import Floats
 
 _WIDER, _WIDENINGS = 8.0, 4
 """The box is so many times as wide as Newton's method would move its middle, and as wide again if that fails."""
-_NEARLY_REAL, _CORRECTIONS = 1e-4, 3
-"""A point that is less beside a real one is tried as a real one first, after so many corrections: of forms that are
-badly conditioned a path ends that far off. Where that leads to another point's box this is there twice: no proof."""
+# Largest imaginary part of a point that is tried as a real one first: of badly conditioned forms a path ends that far
+# off. Where this leads to another point's box, that box is there twice, and nothing is proved.
+_NEARLY_REAL = 1e-4
+_CORRECTIONS = 3  # Newton's method doubles the digits at each: 1e-4 becomes 1e-32, which is less than rounding
 _LEAST_WIDTH = 1e-13
 """Boxes are no smaller: as wide as the rounding of their middles."""
 _INSIDE = 1.0 - 2.0**-30

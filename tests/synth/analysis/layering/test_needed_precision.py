@@ -33,11 +33,11 @@ def turned(places, angle):
 
 @pytest.mark.parametrize("seed", slow_but({0, 1, 22}, range(75)))
 def test_rounded_and_turned_back(seed):
-    """Patterns in which no inner vertex says anything of the error are left out: nothing is estimated there."""
+    """Where no inner vertex says anything of the error nothing is estimated, and a copy may be refused: a known gap."""
     sheet, rng = pattern(seed), np.random.default_rng(seed)
     exact = synth.layers(sheet, explain=False)
     if not exact.vertices:
-        pytest.skip("no vertex inside")
+        pytest.xfail("no inner vertex says anything of the error: nothing is estimated")
     for decimals in (3, 4, 5, 6):
         angle = rng.uniform(0.0, 2.0 * np.pi)
         places = turned(turned(np.array(sheet.coordinates), angle).round(decimals), -angle)
